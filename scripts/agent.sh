@@ -8,8 +8,8 @@ usage() {
   cat <<'END'
 Usage: scripts/agent.sh [--package] [amd64] [arm64] [armhf]
 Builds pitchboard-agent, the program for the robot, for the named processors (default: all three), each as one
-static file: build/agent/ARCHITECTURE/bin/pitchboard-agent. --package makes Debian packages of them, too:
-build/agent/pitchboard-agent_*.deb. Missing packages are installed, Debian's cross compilers among them.
+static file: build/agent/ARCHITECTURE/bin/pitchboard-agent. --package makes Debian packages of them, too, in
+build/packages/ARCHITECTURE (scripts/package.sh --agent). Missing packages are installed, Debian's cross compilers among them.
 Example: scripts/agent.sh --package arm64
 END
 }
@@ -34,8 +34,8 @@ for name in "${names[@]}"; do
   folder=build/agent/$name
   quietly cmake -G Ninja -S app/agent -B "$folder" -DCMAKE_SYSTEM_NAME=Linux \
     -DCMAKE_SYSTEM_PROCESSOR="${processors[$name]}" -DCMAKE_C_COMPILER="${triplets[$name]}-gcc" \
-    -DCMAKE_CXX_COMPILER="${triplets[$name]}-g++" -DPITCHBOARD_AGENT_ARCHITECTURE="$name" "${launcher[@]}"
+    -DCMAKE_CXX_COMPILER="${triplets[$name]}-g++" "${launcher[@]}"
   quietly cmake --build "$folder"
   stat -c '%s bytes  %n' "$folder/bin/pitchboard-agent"
-  [ $package = no ] || (cd "$folder" && quietly cpack -B "$PWD/..")
+  [ $package = no ] || scripts/package.sh --agent --arch "$name" --built "$folder" --into "build/packages/$name"
 done

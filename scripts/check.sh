@@ -10,7 +10,7 @@ usage() {
 Usage: scripts/check.sh [--full] [--base COMMIT] [CHECK...]
 Checks, in this order (default: all of them):
   format     clang-format over the whole tree
-  docs       links, file names and options that the documents name are there
+  docs       links, file names and options that the documents name are there; types and pydoc of the Python module
   includes   include directions between libraries and modules (tst_layers)
   tidy       clang-tidy over the sources that changed since COMMIT (default: main)
   tidy-all   clang-tidy over all sources; long; only when asked for
@@ -62,9 +62,30 @@ format() { sources '*.h' '*.cpp' ':!tests/data' | xargs clang-format --dry-run -
 # scripts/spelling.txt has the words that are right all the same.
 docs() {
   python3 scripts/check_docs.py
+  # The module for Python: its types, and its documentation as pydoc shows it.
+  mypy --strict --cache-dir build/mypy robotlink/laboratory/capi/python/pitchboard
+  python_docs
   sources app simcore telemetry robotlink ui tests docs scripts packaging '*.md' run test install \
     ':!tests/data' ':!docs/reference' ':!*.svg' ':!*.png' ':!scripts/spelling.txt' |
     xargs codespell --ignore-words scripts/spelling.txt
+}
+
+# Everything that the module offers is described. This needs its library; a build without one has nothing to show.
+python_docs() {
+  local library=build/release/lib/libpitchboard_sim.so.1 name
+  [ -e $library ] || { echo "pydoc: skipped, because build/release has no library"; return 0; }
+  PYTHONPATH=robotlink/laboratory/capi/python PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - <<'END'
+import inspect, pitchboard, pydoc
+page = pydoc.plain(pydoc.render_doc(pitchboard))
+missing = [name for name in pitchboard.__all__ if name not in page]
+for name in pitchboard.__all__:
+    thing = getattr(pitchboard, name)
+    members = vars(thing).items() if inspect.isclass(thing) else ()
+    missing += [name] * (not thing.__doc__)
+    missing += [f"{name}.{key}" for key, value in members if not key.startswith("_")
+                and (inspect.isfunction(value) or isinstance(value, property)) and not inspect.getdoc(value)]
+raise SystemExit("no description: " + ", ".join(missing) if missing else None)
+END
 }
 
 includes() {

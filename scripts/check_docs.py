@@ -6,7 +6,8 @@ Of README, ARCHITECTURE, CONVENTIONS and docs/ (or the given files) it checks
   - links to files of this repository, and to headings (#...);
   - paths and file names in `code`: `robotlink/match`, `docs/live.md`, `resources/**/*.json`, `skills.h`;
   - options in `code` and in blocks of commands: a program or a script of ours has to know `--debug-port`;
-  - without files given, that every command of pitchboard-cli is shown by one of them, and that every page has a picture.
+  - without files given, that every command of pitchboard-cli is shown by one of them, that every page has a picture,
+    and that docs/building.md names the versions of libraries that CMakeLists.txt asks for.
 Prints "file:line: what" for each that is not, and ends with 1. Example: scripts/check_docs.py docs/live.md
 """
 import re
@@ -20,7 +21,7 @@ DOCUMENTS = ["*.md", "docs/**/*.md"]
 FOREIGN_OPTIONS = {
     "--preset", "--build", "--target", "--install", "--prefix", "--output-on-failure", "--parallel",
     "--recursive", "--array", "--version", "--help", "--benchmark_filter", "--no-install-recommends", "--test-dir",
-    "--now", "--benchmark_repetitions", "--benchmark_enable_random_interleaving", "--cflags", "--libs",
+    "--idle", "--file", "--tag", "--build-arg", "--now", "--benchmark_repetitions", "--benchmark_enable_random_interleaving", "--cflags", "--libs",
 }
 SOURCES = (".h", ".cpp", ".py", ".sh", ".json", ".md", ".mjs", ".txt", ".cmake", ".supp", ".dict", ".svg",
            ".png", ".bin", ".mcap")
@@ -52,6 +53,9 @@ def own_options():
             text = (ROOT / name).read_text(encoding="utf-8", errors="replace")
             if name != "scripts/check_docs.py":
                 found.update(OPTION.findall(text))
+        if name.endswith(".cpp") and not name.startswith("tests/"):  # rows of tables of options
+            rows = (ROOT / name).read_text(encoding="utf-8")
+            found.update("--" + row for row in re.findall(r"\{\.name = \"([\w-]+)\"", rows))
     return found
 
 
@@ -156,6 +160,17 @@ def pages_without_picture():
             yield f"{page.relative_to(ROOT)}: no picture (scripts/docs_pictures.sh)"
 
 
+def versions_not_in_table():
+    """docs/building.md says which versions are needed, CMakeLists.txt asks for them."""
+    table = dict(re.findall(r"\| ([\w.+-]+) \| ([\d.]+) (?=\|)", (ROOT / "docs/building.md").read_text(encoding="utf-8")))
+    build = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    asked = dict(re.findall(r"(?:pitchboard_needs\(|IMPORTED_TARGET )([\w-]+?)(?: |>=)([\d.]+)", build))
+    asked["CMake"] = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)\)", build).group(1)
+    for name, version in asked.items():
+        if table.get(name) != version:
+            yield f"docs/building.md: {name} {version} is needed (CMakeLists.txt), but its table says {table.get(name)}"
+
+
 def main():
     if "--help" in sys.argv or "-h" in sys.argv:
         print(__doc__)
@@ -165,7 +180,7 @@ def main():
     options = own_options()
     problems = [problem for document in documents for problem in check(document, options)]
     if not given:
-        problems += [*commands_without_document(), *pages_without_picture()]
+        problems += [*commands_without_document(), *pages_without_picture(), *versions_not_in_table()]
     print("\n".join(problems) if problems else f"{len(documents)} documents name nothing that is not there")
     return 1 if problems else 0
 

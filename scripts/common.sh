@@ -1,16 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # For ./run, ./test, .ci/run and scripts/: install_packages LIST..., quietly COMMAND..., build PRESET
-# TARGET... Run from the top folder.
+# TARGET... Run from the top folder. With PITCHBOARD_YES=yes (--yes of the commands) nothing is asked.
 # A line of a list is a package, or a package and a command: it is needed only where the command is
-# missing, because another packaging of the same program would be in conflict with it.
+# missing, because another packaging of the same program would be in conflict with it. A package that an
+# installed one provides is there, too: what is a package on one system is a part of another one on the next.
+
+# Names of all installed packages and of what they provide, one a line.
+installed_packages() {
+  dpkg-query -W -f='${db:Status-Status}|${Package},${Provides}\n' |
+    sed -n 's/^installed|//p' | tr ',' '\n' | sed 's/(.*//; s/ //g; /^$/d'
+}
 
 install_packages() {
-  local missing=() package command
+  local missing=() package command installed
+  installed=$(installed_packages)
   while read -r package command; do
     [ -n "$package" ] || continue
     [ -z "$command" ] || ! command -v "$command" >/dev/null || continue
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q '^install ok installed' ||
-      missing+=("$package")
+    grep -qxF -- "$package" <<<"$installed" || missing+=("$package")
   done < <(cat "$@")
   [ ${#missing[@]} -gt 0 ] || return 0
   local as_root=()
@@ -20,6 +27,7 @@ install_packages() {
       return 2
     fi
     as_root=(sudo)
+    may_install "${missing[@]}" || return 2
   fi
   echo "Installing ${#missing[@]} packages: ${missing[*]}" >&2
   "${as_root[@]}" apt-get update -qq
@@ -27,10 +35,26 @@ install_packages() {
     apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# quietly COMMAND...: says nothing when all is well, the end of what it said when it is not.
+# may_install PACKAGE...: says what sudo would install, and asks. Where nobody can answer, the answer is no, as apt-get's.
+may_install() {
+  local answer
+  [ -z "${PITCHBOARD_YES:-}" ] || return 0
+  echo "These packages of your system are missing (with those that they need):" >&2
+  printf '  %s\n' "$*" | fold -s -w 100 >&2
+  if [ -t 0 ] && [ -t 2 ]; then
+    read -r -p "Install them with sudo apt-get? [Y/n] " answer
+    case $answer in '' | [Yy] | [Yy][Ee][Ss]) return 0 ;; esac
+  fi
+  echo "error: nothing was installed. Install them yourself: sudo apt-get install $*" >&2
+  [ -t 0 ] && [ -t 2 ] || echo "       or say --yes, and they are installed without asking." >&2
+  return 1
+}
+
+# quietly COMMAND...: says nothing when all is well, the end of what it said when it is not. It goes into $quiet_log.
+quiet_log=build/build.log
 quietly() {
-  mkdir -p build
-  local log=build/build.log
+  local log=$quiet_log
+  mkdir -p "$(dirname "$log")"
   if ! "$@" >"$log" 2>&1; then
     tail -n 60 "$log" >&2
     echo "error: this failed: $*; all it said is in $log" >&2
@@ -58,7 +82,7 @@ show_progress() {
 
 # build PRESET TARGET...
 build() {
-  local preset=$1 log=build/build.log hits=build/compiler-cache.log
+  local preset=$1 log=build/build-$1.log hits=build/compiler-cache-$1.log quiet_log=build/build-$1.log
   shift
   echo "Building $preset (the log is in $log) ..." >&2
   quietly cmake --preset "$preset"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Makes docs/images/*.png from the program itself: scripts/docs_pictures.sh [NAME...]
-# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick, librsvg2-bin and optipng. Robots and a referee of
+# Makes docs/images/* from the program itself: scripts/docs_pictures.sh [NAME...]
+# Commit them when the window has changed. Needs a release build, xvfb, xdotool, imagemagick, ffmpeg, librsvg2-bin and optipng. Robots and a referee of
 # live.png are played by this script on the published ports, so no studio may be listening.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/.."
@@ -85,6 +85,25 @@ recording() {
   [ -f match.mcap ] || "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 2:00 -o match.mcap >/dev/null
 }
 
+# The ball is dragged to a robot; the others follow it, and a curve shows how far away it is.
+first-minute() {
+  rm -f settings.ini
+  "$bin/pitchboard" --settings "$work/settings.ini" --size 1280x800 --theme light --scenario kick-off &
+  window=$!
+  xdotool search --sync --onlyvisible --name Pitchboard mousemove 606 450 >/dev/null
+  sleep 3
+  ffmpeg -loglevel error -y -f x11grab -framerate 10 -video_size 1280x800 -i "$DISPLAY" -t 10 -c:v libx264 -qp 0 \
+    -preset ultrafast first-minute.mkv &
+  local film=$! step
+  sleep 1.5
+  xdotool mousemove 606 380 sleep 0.2 mousemove 606 313 sleep 0.5 mousedown 1
+  for step in {1..14}; do xdotool mousemove $((606 + step * 9)) $((313 + step * 8)) sleep 0.08; done
+  xdotool sleep 0.3 mouseup 1 sleep 0.4 mousemove 560 520
+  wait "$film"
+  kill "$window" && wait "$window" 2>/dev/null || true
+  ffmpeg -loglevel error -y -i first-minute.mkv -vf scale=960:-1:flags=lanczos -c:v libwebp_anim -loop 0 -quality 55 \
+    -compression_level 6 first-minute.webp
+}
 studio-dark() { studio --scenario match-3v3 --play-to 3600; shoot studio-dark; }
 studio-light() { theme=light studio --scenario match-3v3 --play-to 3600; shoot studio-light; }
 scenario() {
@@ -112,6 +131,10 @@ blackboard() {
   shoot blackboard
   convert blackboard.png -crop 418x300+1022+62 +repage blackboard.png
 }
+advisor() {
+  terminal advisor "pitchboard-cli record --scenario match-3v3 --seed 2 --advisor blue --duration 2:00 -o learned.mcap;" \
+    "pitchboard-cli export learned.mcap --to csv-even --rate 0.1 --robots B2 --variables 'ADVISOR_A*'"
+}
 behaviours() {
   studio --scenario match-3v3 --play-to 900
   find "Localization particles"
@@ -134,11 +157,15 @@ agent() {
   # shellcheck disable=SC2086
   kill $robots && wait $robots 2>/dev/null || true # they would be seen in live.png, too
 }
+other-robots() {
+  "$bin/pitchboard-cli" import "$root/tests/data/recordings/robot_walks.mcap" -o walk.mcap --force 2>/dev/null
+  "$bin/pitchboard-cli" export walk.mcap --to png --from 10 -o other-robots.png --force
+}
 rollouts() {
-  PYTHONPATH=$root/docs/examples PITCHBOARD_SIM_LIBRARY=$root/build/release/lib/libpitchboard_sim.so.1 python3 - >heat.mvg <<'END'
+  PYTHONPATH=$root/robotlink/laboratory/capi/python /usr/bin/python3 - >heat.mvg <<'END'
 # Where the ball is after 5 s: shares of rollouts in cells of 0.25 m, on a field of 9 m by 6 m, 80 pixels a metre.
 import collections
-from pitchboard_rollout import Rollouts
+from pitchboard import Rollouts
 
 with_ball = {"ball_x": 1.6, "ball_y": 0.6, "ball_sigma": 0.1, "state": 3}
 rollouts = Rollouts("match-3v3")
@@ -148,7 +175,7 @@ belief.robots[0].update(x=1.3, y=0.5, yaw=0.3, sigma=0.1)
 belief.robots[3].update(x=2.4, y=0.3, yaw=3.1, sigma=0.15)
 outcomes = rollouts.play(belief, count=3000, seconds=10)
 cells = collections.Counter((int((x + 5.5) * 4), int((y + 4) * 4))
-                            for x, y in zip(outcomes.column("look_x"), outcomes.column("look_y")))
+                            for x, y in zip(outcomes["look_x"], outcomes["look_y"]))
 px = lambda x: 440 + 80 * x
 py = lambda y: 320 - 80 * y
 print("stroke none")
@@ -196,7 +223,7 @@ plots() {
   studio --scenario match-3v3 --play-to 3600
   find "B1/TRUE_X"
   find "B1/BELIEF_X"
-  drag 720 621 420
+  drag 720 602 420
   shoot plots
 }
 replay() {
@@ -215,14 +242,6 @@ experiments() {
   shoot experiments
 }
 
-advisor() {
-  studio --scenario match-3v3 --advisor blue --cognition inline --play-to 2098
-  sleep 4
-  find "Advisor's candidates"
-  find "Ball in 5 s"
-  shoot advisor
-  convert advisor.png -crop 716x492+301+104 +repage advisor.png
-}
 explore() {
   studio --scenario match-3v3 --cognition inline --play-to 2100
   find "Explore from this moment"
@@ -255,15 +274,30 @@ tutorial-lost-ball() {
   studio --session match.mcap
   find "B1/VISION_BALL_DIST"
   find "B1/VISION_LOST"
-  drag 720 621 420
+  drag 720 602 420
   click 900 855 # B1 has lost the ball
   shoot tutorial-lost-ball
+}
+tutorial-rerun() {
+  page tutorial-rerun.md ball_robot.py
+  page tutorial-rerun.md team.json
+  "$bin/pitchboard-cli" record --scenario one-robot --noise realistic --seed 7 --runtime B1=team.json --speed max --duration 1:00 -o match.mcap --force >/dev/null
+  sed 's/return 3  *# turn right.*/return 2 if floats[PAN_DEG] > 0 else 3/' ball_robot.py >fixed_robot.py
+  terminal tutorial-rerun "pitchboard-cli rerun match.mcap --robot B1 --process decision=fixed_robot.py"
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
 building() { terminal building "$root/build/release/tests/tests_simcore tst_referee_parameters"; }
 performance() {
   ninja -C "$root/build/release" bench_match >/dev/null
   terminal performance "$root/build/release/benchmarks/bench_match 2>/dev/null"
+}
+continuous-integration() {
+  mkdir -p robot situations ci
+  for file in CMakeLists.txt robot/chase.cpp situations/walks-to-the-ball.json ci/situations.sh; do
+    page continuous-integration.md $file
+    [ ! -d "${file%/*}" ] || mv "${file##*/}" "$file"
+  done
+  terminal continuous-integration "sh ci/situations.sh"
 }
 conformance() { terminal conformance "pitchboard-cli conformance $root/tests/data/traces/i_action_08_B?.json | sed 's,.*/,,'"; }
 file-formats() {
@@ -308,10 +342,15 @@ END
   rsvg-convert worlds.svg -o worlds.png
 }
 
-[ $# -gt 0 ] || set -- studio-dark studio-light scenario referee drawings blackboard behaviours agent rollouts processes live plots replay experiments \
-  advisor explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball building cli conformance file-formats performance worlds
+[ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots rollouts processes live plots replay experiments \
+  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun building cli conformance continuous-integration file-formats performance worlds
 for name in "$@"; do
   "$name"
+  if [ -f "$name.webp" ]; then
+    mv "$name.webp" "$images/$name.webp"
+    echo "docs/images/$name.webp"
+    continue
+  fi
   convert "$name.png" -colors 200 "png8:$name.8.png"
   optipng -quiet -o2 -strip all "$name.8.png"
   mv "$name.8.png" "$images/$name.png"

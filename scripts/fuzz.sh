@@ -42,6 +42,16 @@ cp resources/rules/*.json resources/robots/*.json resources/runtime/*.json "$see
 cp resources/experiments/*.json resources/situations/*.json docs/examples/*.json "$seeds/experiment/"
 cp tests/data/sessions/{small,plain_broken_off}.mcap "$seeds/session/"  # small ones: more inputs a second
 cp tests/data/sessions/*.mcap "$seeds/moments/"
+# The first byte says which reader gets the rest (fuzz_recordings.cpp).
+for file in tests/data/recordings/*.mcap tests/data/recordings/ros2/{cdr_test,for_seek}.mcap; do
+  { printf 'm'; cat "$file"; } > "$seeds/recordings/${file##*/}"
+done
+{ printf 'd'; cat tests/data/recordings/ros2/cdr_test.db3; } > "$seeds/recordings/cdr_test.db3"
+printf 'ctime;x [m];name\n0,5;1;a\n1;2;"b"\n' > "$seeds/recordings/table.csv"
+sed -n '/^```yml log.yaml$/,/^```$/{/^```/d;p}' docs/other-robots.md | sed '1s/^/y/' > "$seeds/recordings/log.yaml"
+printf '2uint8 a\nfloat64[] b\nstring c\nP[2] d\n====================\nMSG: p/P\nint16 x\0\0\1\0\0\1\0\0\0\0\0\0\0' > "$seeds/recordings/ros2msg"
+printf 'imodule p { module msg { @appendable struct T { long a; sequence<double> b; string c; }; }; };\0\0\11\0\0\4\0\0\0' > "$seeds/recordings/idl"
+printf 'j{"a": [1, {"name": "b"}], "stamp": {"sec": 1, "nanosec": 2}}' > "$seeds/recordings/json"
 cp resources/scenarios/*.json "$seeds/scenario/"
 cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
 printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nresponse_timeout = 5\n' \

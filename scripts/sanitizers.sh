@@ -6,7 +6,7 @@ cd "$(dirname "$(readlink -f "$0")")/.."
 
 usage() {
   cat <<'END'
-Usage: scripts/sanitizers.sh [asan|asan-core|tsan] [CTEST OPTION...]
+Usage: scripts/sanitizers.sh [asan|asan-core|tsan] [--build-only | CTEST OPTION...]
 Builds with sanitizers and runs the tests; every report fails its test.
   asan       addresses, leaks and undefined behaviour in all tests (default), in build/asan-ubsan
   asan-core  the same in the tests of simcore, telemetry and robotlink, and in those that are for every build
@@ -34,4 +34,5 @@ jobs=$(nproc)
 [ $preset = tsan ] || jobs=$((2 * jobs))  # many tests wait for other programs
 install_packages scripts/packages-run.txt scripts/packages-test.txt scripts/packages-clang.txt
 build "$preset" "${targets[@]}"
+[ "${1:-}" != --build-only ] || exit 0
 ctest --preset "$preset" -j"$jobs" ${label:+-L "$label"} "$@"

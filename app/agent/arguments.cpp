@@ -73,8 +73,8 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
     arguments.rate =
         TRY(numberIn<double>(option, value, Arguments::slowest, Arguments::fastest, "1 to 100 Hz"));
   } else if (option == "--limit") {
-    arguments.limit = TRY(numberIn<double>(option, value, Arguments::leastLimit,
-                                           Arguments::mostLimit, "16 to 1000000 kbit/s"));
+    arguments.limit = TRY(numberIn<double>(option, value, Arguments::minLimit, Arguments::maxLimit,
+                                           "16 to 1000000 kbit/s"));
   } else if (option == "--catalog") {
     arguments.catalog = value;
   } else if (option == "--variables") {
@@ -146,8 +146,8 @@ Result<Arguments> parseArguments(std::span<const char* const> argv) {
     arguments.receivers.push_back(TRY(receiverFrom("broadcast")));
   }
   const std::size_t receivers = arguments.receivers.size();
-  if (receivers > Arguments::mostReceivers) return invalid("at most 16 computers can be sent to");
-  const double least = Arguments::leastLimit * static_cast<double>(receivers);
+  if (receivers > Arguments::maxReceivers) return invalid("at most 16 computers can be sent to");
+  const double least = Arguments::minLimit * static_cast<double>(receivers);
   if (arguments.limit && *arguments.limit < least) {
     return invalid("--limit must be at least 16 kbit/s for each of the " +
                    std::to_string(receivers) + " computers");

@@ -22,9 +22,9 @@ struct Receiver {
 };
 
 struct Arguments {
-  static constexpr double slowest = 1.0, fastest = 100.0;      ///< Hz
-  static constexpr double leastLimit = 16.0, mostLimit = 1e6;  ///< kbit/s
-  static constexpr std::size_t mostReceivers = 16;
+  static constexpr double slowest = 1.0, fastest = 100.0;   ///< Hz
+  static constexpr double minLimit = 16.0, maxLimit = 1e6;  ///< kbit/s
+  static constexpr std::size_t maxReceivers = 16;
 
   int robot = 0;
   std::optional<int> key;

@@ -2,19 +2,81 @@
 // pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/agent.md).
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <span>
+#include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <base/try.h>
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/blackboard/variable_catalog.h>
 
 #include "arguments.h"
 #include "output.h"
-#include "robot_segment.h"
 #include "schedule.h"
 
 namespace pitchboard::agent {
+
+/// The robot's blackboard, which the agent only reads. It is attached as soon as it exists, and
+/// attached again if it was removed and created anew. One thread at a time.
+class RobotSegment {
+ public:
+  RobotSegment(int key, const link::SegmentLayout& layout) : m_key(key), m_layout(layout) {}
+
+  /// Looks for the segment, at most five times a second. Returns a message for the log after each
+  /// change, otherwise an empty text.
+  std::string look(std::chrono::microseconds now);
+
+  bool isThere() const { return m_view.has_value(); }
+  /// Reads the variables into `words`, which becomes empty if there is no blackboard. Each word is
+  /// read atomically, but not all at the same instant.
+  void read(std::span<const link::Variable> variables, std::vector<std::uint32_t>& words) const;
+
+ private:
+  int m_key;
+  link::SegmentLayout m_layout;
+  std::optional<link::SegmentView> m_view;
+  std::optional<std::chrono::microseconds> m_looked;
+  std::string m_reported;
+};
+
+std::string RobotSegment::look(std::chrono::microseconds now) {
+  constexpr std::chrono::microseconds step = std::chrono::milliseconds(200);
+  if (m_looked && now - *m_looked < step) return {};
+  m_looked = now;
+  if (m_view && m_view->isThere()) return {};
+  auto view = link::SegmentView::attach(m_key, m_layout.bytes);
+  const std::string name = "blackboard " + std::to_string(m_key);
+  std::string text;
+  const bool found = view.has_value();
+  if (found) {
+    text = m_view ? name + " was created again; reading the new one" : "reading " + name;
+    m_view = *std::move(view);
+  } else if (m_view && m_view->isShared()) {
+    text = name + " was removed, but the robot's programs still use it; still reading it";
+  } else {
+    m_view.reset();
+    text = view.error().code == ErrorCode::NotFound ? "waiting for " + name : view.error().text();
+  }
+  if (text == m_reported && !found) return {};
+  return m_reported = std::move(text);
+}
+
+void RobotSegment::read(std::span<const link::Variable> variables,
+                        std::vector<std::uint32_t>& words) const {
+  words.clear();
+  if (!m_view) return;
+  for (const link::Variable& variable : variables) {
+    const int offset = variable.type == link::VariableType::Float ? m_layout.floatOffset : 0;
+    words.push_back(
+        m_view->word(static_cast<std::size_t>(offset) + static_cast<std::size_t>(variable.index)));
+  }
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -68,6 +130,7 @@ Result<void> run(const Arguments& arguments) {
 }
 
 }  // namespace
+
 }  // namespace pitchboard::agent
 
 int main(int argc, char** argv) {

@@ -32,7 +32,7 @@ class Schedule {
   /// IP and UDP headers of a datagram.
   static constexpr std::size_t headerBytes = 28;
   /// The smallest limit with which every variable can still be sent.
-  static constexpr double leastBytesPerSecond = 2000.0;
+  static constexpr double minBytesPerSecond = 2000.0;
   /// Every value is sent at least every promisedPeriod. The schedule aims at a slightly shorter
   /// period, because datagrams are only sent at ticks.
   static constexpr Time refreshPeriod = std::chrono::milliseconds(1900);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <base/nearest_name.h>
 #include <base/try.h>
 #include <robotlink/blackboard/variable_catalog.h>
 
@@ -104,11 +105,17 @@ Result<std::vector<Variable>> choose(const VariableCatalog& catalog,
   std::vector<Variable> chosen;
   for (const std::string& name : names) {
     const Variable* const found = catalog.find(name);
-    if (found == nullptr)
+    if (found == nullptr) {
+      std::vector<std::string_view> known;
+      for (const Variable& variable : catalog.variables()) known.push_back(variable.name);
+      const std::string_view near = nearestName(name, known);
       return failure(ErrorCode::NotFound,
-                     "no such variable in the catalog; `pitchboard-cli blackboard dump` lists them "
-                     "all, --catalog FILE reads a team's catalog",
+                     "no such variable in the catalog; " +
+                         (near.empty() ? "`pitchboard-cli blackboard dump` lists them all, "
+                                         "--catalog FILE reads a team's catalog"
+                                       : "did you mean " + std::string(near) + "?"),
                      name);
+    }
     chosen.push_back(*found);
   }
   return chosen;
@@ -215,7 +222,7 @@ Result<int> watch(WatchOptions& options) {
 
   Words before{};
   board.copyWords(before);
-  // Whoever reads our output knows from here on that no change is missed.
+  // From this line on the reader knows that no change is missed.
   std::fprintf(stderr, "watching blackboard %d; press Ctrl+C to stop\n", board.key());
   const auto end =
       SteadyClock::now() + std::chrono::duration_cast<SteadyClock::duration>(
@@ -339,8 +346,10 @@ void addWatchCommand(CLI::App& parent, int& exitCode) {
       "Print changes of a blackboard as they happen.\n"
       "Example: pitchboard-cli blackboard watch 1 DECISION_ACTION_A VISION_BALL_DIST");
   options->target.addKeysTo(*command);
-  command->add_option("ROBOT NAME", options->names,
-                      "Robot number, then the variables to watch (default: all)");
+  command
+      ->add_option("names", options->names,
+                   "Robot number, then the variables to watch (default: all)")
+      ->type_name("ROBOT NAME");
   addCatalogOption(*command, options->catalog);
   command->add_option("--interval", options->intervalMs, "Milliseconds between two samples")
       ->type_name("MS")
@@ -361,10 +370,9 @@ void addSetCommand(CLI::App& parent, int& exitCode) {
       "Write variables of a blackboard.\n"
       "Example: pitchboard-cli blackboard set 1 DECISION_ACTION_A=8 DECISION_ACTION_B=20");
   options->target.addKeysTo(*command);
-  command
-      ->add_option("ROBOT NAME=VALUE", options->assignments,
-                   "Robot number, then the values to write")
-      ->required();
+  command->add_option("assignments", options->assignments, "Robot number, then the values to write")
+      ->required()
+      ->type_name("ROBOT NAME=VALUE");
   addCatalogOption(*command, options->catalog);
   whenChosen(*command, options, exitCode, &set);
 }

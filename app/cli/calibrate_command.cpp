@@ -57,9 +57,7 @@ void printCalibration(const link::Calibration& calibration) {
   for (const auto& [key, reason] : calibration.kept) {
     std::printf("%-28s %s\n", key.c_str(), reason.c_str());
   }
-  for (const auto& [cause, seconds] : calibration.leftOut) {
-    std::printf("Left out: %.1f s, %s\n", seconds, cause.c_str());
-  }
+  for (const std::string& text : link::leftOutTexts(calibration)) std::printf("%s\n", text.c_str());
   for (const std::string& note : calibration.notes) std::printf("%s\n", note.c_str());
   if (calibration.check.windows.empty()) return;
   std::printf("Position after 5 s: %.1f cm off, with %s %.1f cm (%zu windows)\n",
@@ -73,12 +71,8 @@ Result<int> calibrateRobot(const CalibrateOptions& options) {
   const auto base = TRY(link::loadRobotModel(options.base));
   const telemetry::TimeRange range{TRY(secondsOr(options.from, "--from", -1e18)),
                                    TRY(secondsOr(options.to, "--to", 1e18))};
-  const IfExists ifExists = options.force ? IfExists::Replace : IfExists::Refuse;
-  for (const std::string* path : {&options.output, &options.report}) {
-    if (!path->empty() && !options.force && std::filesystem::exists(*path)) {
-      return failure(ErrorCode::Conflict, "the file exists; add --force to replace it", *path);
-    }
-  }
+  const IfExists oldModel = TRY(ifExists(options.output, options.force));
+  const IfExists oldReport = TRY(ifExists(options.report, options.force));
   std::vector<link::CalibrationLog> logs;
   for (const std::string& path : options.sessions) {
     const auto session = TRY(telemetry::SessionReader::open(path));
@@ -91,10 +85,10 @@ Result<int> calibrateRobot(const CalibrateOptions& options) {
     return 1;
   }
   if (!calibration) return tl::unexpected(calibration.error());
-  TRY(link::writeCalibration(options.output, *calibration, programName, ifExists));
+  TRY(link::writeCalibration(options.output, *calibration, programName, oldModel));
   if (!options.report.empty()) {
     TRY(writeFile(options.report, link::calibrationReport(*calibration, logs.front().field),
-                  ifExists));
+                  oldReport));
   }
   if (options.json) {
     std::printf("%s", link::calibrationToJson(*calibration, programName).c_str());
@@ -139,7 +133,7 @@ void addCalibrateCommand(CLI::App& parent, int& exitCode) {
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.5))
       ->capture_default_str();
-  command->add_flag("--force", options->force, "Replace existing files");
+  addForce(*command, options->force, "Replace existing files");
   command->add_flag("--json", options->json, "Print the robot model with its intervals as JSON");
   command->add_flag("--progress", options->progress,
                     "Print progress to stderr even if it is not a terminal");

@@ -33,9 +33,10 @@ std::string table(const link::VariableCatalog& catalog) {
 }
 
 int importCatalog(const ImportOptions& options) {
-  const auto catalog = link::VariableCatalog::fromFile(options.file);
+  link::SegmentLayout layout;
+  const auto catalog = link::VariableCatalog::fromFile(options.file, layout);
   if (!catalog) return reportError(catalog.error());
-  const std::string text = options.json ? catalog->toJson() : table(*catalog);
+  const std::string text = options.json ? catalog->toJson(layout) : table(*catalog);
   if (options.output.empty()) {
     std::cout << text << std::flush;
     return 0;

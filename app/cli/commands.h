@@ -6,12 +6,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <sys/stat.h>
 #include <algorithm>
 #include <memory>
 #include <string>
 
 #include <app/command_line.h>
 #include <app/usage.h>
+#include <base/file_target.h>
 
 namespace pitchboard::cli {
 
@@ -38,12 +40,14 @@ void addInspectCommand(CLI::App& parent, int& exitCode);
 void addRepairCommand(CLI::App& parent, int& exitCode);
 void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
+void addImportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTournamentCommand(CLI::App& parent, int& exitCode);
 void addTestCommand(CLI::App& parent, int& exitCode);
 void addLearnCommand(CLI::App& parent, int& exitCode);
 void addCalibrateCommand(CLI::App& parent, int& exitCode);
 void addExploreCommand(CLI::App& parent, int& exitCode);
+void addRerunCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;
@@ -51,6 +55,26 @@ using shared::reportError;
 /// Reports the error of a command that failed.
 inline int exitCodeOf(const Result<int>& done) {
   return done ? *done : reportError(done.error());
+}
+
+/// Adds --force, which lets a command replace what it has written before.
+inline void addForce(CLI::App& command, bool& force,
+                     const char* description = "Replace an existing file") {
+  command.add_flag("--force", force, description);
+}
+
+/// What happens to an existing file. Without --force it is refused here, before the work begins and
+/// with the option's name. An empty path is fine; `source`, which is read, is refused by whoever
+/// writes.
+inline Result<IfExists> ifExists(const std::string& path, bool force,
+                                 const std::string& source = {}) {
+  struct stat old {};
+  if (force) return IfExists::Replace;
+  if (path.empty() || ::lstat(path.c_str(), &old) != 0 || isSameFile(path, source)) {
+    return IfExists::Refuse;
+  }
+  return failure(ErrorCode::Conflict,
+                 "This file exists; add --force to replace it, or choose another name.", path);
 }
 
 /// Runs `run(*options)` when this command was chosen, and sets the exit code.

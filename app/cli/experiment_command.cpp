@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <app/option_arguments.h>
 #include <app/scenario_options.h>
 #include <base/try.h>
 #include <robotlink/processes/team_program.h>
@@ -39,6 +40,7 @@ void addMerge(CLI::App& parent, int& exitCode) {
   struct Merge {
     std::vector<std::string> parts;
     std::string out;
+    bool force = false;
   };
   auto options = std::make_shared<Merge>();
   CLI::App* command =
@@ -51,8 +53,17 @@ void addMerge(CLI::App& parent, int& exitCode) {
   command->add_option("--out", options->out, "New folder for the results")
       ->required()
       ->type_name("DIR");
+  addForce(*command, options->force, "Discard the results in the new folder first");
   whenChosen(*command, options, exitCode, [](Merge& chosen) -> Result<int> {
     const auto experiment = TRY(link::experimentOf(chosen.parts.front()));
+    if (chosen.force) {
+      for (const std::string& part : chosen.parts) {
+        if (!isSameFile(part, chosen.out)) continue;
+        return failure(ErrorCode::Conflict, "this folder is one of the parts; choose another",
+                       chosen.out);
+      }
+      TRY(link::discardResults(chosen.out));
+    }
     const auto merged = TRY(link::mergeFolders(chosen.parts, chosen.out, experiment));
     if (merged.complete()) return printResults(experiment, merged);
     return failure(ErrorCode::NotFound,
@@ -66,7 +77,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
   struct Replay {
     std::string folder, output, robotProgram;
     std::size_t run = 1;
-    bool open = false;
+    bool open = false, force = false;
   };
   auto options = std::make_shared<Replay>();
   CLI::App* command = parent.add_subcommand(
@@ -81,6 +92,7 @@ void addReplay(CLI::App& parent, int& exitCode) {
       ->add_option("-o,--output", options->output,
                    "New recording; default: sessions/run-N.mcap in the folder")
       ->type_name("FILE.mcap");
+  addForce(*command, options->force, "Replace an existing recording");
   command->add_flag("--open", options->open, "Open it in the studio");
   command
       ->add_option("--robot-program", options->robotProgram,
@@ -97,7 +109,9 @@ void addReplay(CLI::App& parent, int& exitCode) {
         chosen.output.empty() ? link::sessionPath(chosen.folder, chosen.run) : chosen.output;
     const auto before = TRY(link::resultOf(chosen.folder, experiment, chosen.run));
     const char* doubt = before.match.repeatable ? "" : "; the run is not repeatable";
-    if (!std::filesystem::exists(path) || !chosen.output.empty()) {
+    if (!chosen.output.empty()) TRY(ifExists(path, chosen.force));
+    if (!std::filesystem::exists(path) || !chosen.output.empty() || chosen.force) {
+      settings.replace = chosen.force;
       const auto result =
           TRY(link::recordAgain(chosen.folder, experiment, chosen.run, path, settings));
       std::printf(

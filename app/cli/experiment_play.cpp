@@ -73,6 +73,10 @@ void printTable(const link::TournamentTable& table) {
                 totals.played(), totals.won, totals.drawn, totals.lost, goals, totals.difference,
                 range, totals.points());
   }
+  for (const auto& [name, totals] : table.teams) {
+    if (totals.wonByCoin == 0) continue;
+    std::printf("%s won %zu by coin, after a shoot-out\n", name.c_str(), totals.wonByCoin);
+  }
   for (const auto& [number, what] : table.wrong)
     std::printf("WRONG   run %zu: %s\n", number, what.c_str());
 }
@@ -99,7 +103,10 @@ void addPlayInto(CLI::App& command, PlayInto& o) {
       ->type_name("N")
       ->check(CLI::Range(1, 1024));
   command.add_option("--shard", o.shard, "Run only shard i of n")->type_name("i/n");
-  command.add_flag("--resume", o.resume, "Continue with the results in the folder");
+  CLI::Option* resume =
+      command.add_flag("--resume", o.resume, "Continue with the results in the folder");
+  addForce(command, o.force, "Discard the results in the folder and start over");
+  resume->excludes(command.get_option("--force"));
   command.add_flag("--progress", o.progress,
                    "Print progress to stderr even if it is not a terminal");
   command
@@ -134,6 +141,7 @@ std::string robotProgram(const std::string& chosen) {
 
 Result<int> playInto(const link::Experiment& experiment, const PlayInto& options) {
   const auto shard = TRY(shardFrom(options.shard));
+  if (options.force) TRY(link::discardResults(options.folder));
   auto folder = TRY(link::ExperimentFolder::begin(options.folder, experiment, options.resume));
 
   const InterruptGuard signals;
@@ -197,6 +205,7 @@ int printSummary(const link::Experiment& experiment, const link::ExperimentSumma
   if (unrepeatable > 0) {
     std::printf("%zu of %zu runs are not repeatable\n", unrepeatable, experiment.allRuns());
   }
+  for (const std::string& text : link::identicalTexts(summary)) std::printf("%s\n", text.c_str());
   for (const link::CheckedAssertion& one : summary.assertions) {
     std::printf("%s  %s: %s (%s)\n", one.holds ? "holds " : "FAILED", one.condition.c_str(),
                 one.text.c_str(), one.values.c_str());

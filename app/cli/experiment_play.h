@@ -17,10 +17,10 @@ namespace pitchboard::cli {
 struct PlayInto {
   std::string folder, shard, robotProgram;
   std::size_t jobs = 0;  ///< 0: as many as the processors can play
-  bool resume = false, progress = false;
+  bool resume = false, force = false, progress = false;
 };
 
-/// Adds --out, --jobs, --shard, --resume, --progress and --robot-program.
+/// Adds --out, --jobs, --shard, --resume, --force, --progress and --robot-program.
 void addPlayInto(CLI::App& command, PlayInto& options);
 struct Shard {
   std::size_t index = 1, count = 1;

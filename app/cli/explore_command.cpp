@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ExploreCommand {
-  std::string file, at, robot;
+  std::string file, at;
   double seconds = 30.0;
   std::size_t rollouts = 1000;
   std::uint64_t seed = 1;
@@ -38,18 +38,6 @@ Result<std::optional<link::Scenario>> scenarioOf(const telemetry::SessionReader&
   const auto text = session.attachment(link::scenarioAttachment);
   if (!text || text->empty()) return std::optional<link::Scenario>();
   return std::optional(TRY(link::scenarioFromJson(*text, "the recording's scenario")));
-}
-
-Result<RobotKey> playerNamed(const link::ExploreStart& start, const std::string& name) {
-  const auto found = link::robotNamed(name, start.names);
-  if (!found) {
-    std::string known;
-    for (const std::string& one : start.names) known += (known.empty() ? "" : ", ") + one;
-    return failure(ErrorCode::NotFound,
-                   "there is no robot " + name + " at this moment; there are " + known);
-  }
-  return start.robots[static_cast<std::size_t>(std::ranges::find(start.names, *found) -
-                                               start.names.begin())];
 }
 
 Result<Explored> exploreFile(const ExploreCommand& command) {
@@ -80,10 +68,9 @@ Result<Explored> exploreFile(const ExploreCommand& command) {
   made.start = TRY(link::exploreStart(frame, options));
   link::ExploreOptions explore;
   explore.seconds = command.seconds;
-  explore.mostRollouts = command.rollouts;
+  explore.maxRollouts = command.rollouts;
   explore.seed = command.seed;
   explore.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
-  if (!command.robot.empty()) explore.robot = TRY(playerNamed(made.start, command.robot));
   made.result = TRY(link::explore(
       made.start, explore,
       [&progress](double done, const link::ExploreResult&) { return progress(done); },
@@ -92,16 +79,8 @@ Result<Explored> exploreFile(const ExploreCommand& command) {
   return made;
 }
 
-Json shareJson(const rollout::Share& share) {
+Json shareJson(const link::Share& share) {
   return {{"value", share.value}, {"low", share.low}, {"high", share.high}};
-}
-
-Json estimateJson(const link::Estimate& estimate) {
-  return {{"value", estimate.value}, {"low", estimate.low}, {"high", estimate.high}};
-}
-
-Json pointJson(const Point& point) {
-  return {{"x", point.x}, {"y", point.y}};
 }
 
 Json exploredJson(const ExploreCommand& command, const Explored& explored) {
@@ -115,20 +94,6 @@ Json exploredJson(const ExploreCommand& command, const Explored& explored) {
            {"notes", explored.start.notes},
            {"goal_left", shareJson(result.last().goalLeft)},
            {"goal_right", shareJson(result.last().goalRight)}};
-  if (!command.robot.empty()) {
-    out["robot"] = command.robot;
-    out["actions"] = Json::array();
-    for (const link::ExploredAction& action : result.actions) {
-      Json one{{"text", action.text},
-               {"goal_difference", estimateJson(action.value)},
-               {"behind_best", estimateJson(action.behind)},
-               {"from", pointJson(action.from)}};
-      if (action.to) one["to"] = pointJson(*action.to);
-      out["actions"].push_back(std::move(one));
-    }
-    out["best"] = result.actions[result.best].text;
-    out["best_is_clear"] = result.isClear();
-  }
   out["heat"] = {{"columns", result.columns}, {"rows", result.rows}, {"times", Json::array()}};
   for (std::size_t i = 0; i < result.times.size(); ++i) {
     const link::ExploredTime& time = result.times[i];
@@ -145,26 +110,12 @@ void printExplored(const Explored& explored) {
   for (const std::string& note : explored.start.notes) std::printf("%s\n", note.c_str());
   std::printf("\n%zu rollouts of %.0f s from %.2f s\n", result.rollouts, result.seconds,
               explored.time);
-  const auto goal = [](const char* team, const rollout::Share& share) {
+  const auto goal = [](const char* team, const link::Share& share) {
     std::printf("%-32s %5.1f %%   (95 %%: %.1f to %.1f)\n", team, 100.0 * share.value,
                 100.0 * share.low, 100.0 * share.high);
   };
   goal("Goal of the left team", result.last().goalLeft);
   goal("Goal of the right team", result.last().goalRight);
-  if (result.actions.empty()) return;
-  std::printf("\n%-26s %-28s %s\n", "action", "goal difference (95 %)", "behind the best");
-  for (std::size_t i = 0; i < result.actions.size(); ++i) {
-    const link::ExploredAction& action = result.actions[i];
-    char value[64], behind[64] = "best";
-    std::snprintf(value, sizeof value, "%+.3f (%+.3f to %+.3f)", action.value.value,
-                  action.value.low, action.value.high);
-    if (i != result.best) {
-      std::snprintf(behind, sizeof behind, "%.3f (%+.3f to %+.3f)", action.behind.value,
-                    action.behind.low, action.behind.high);
-    }
-    std::printf("%-26s %-28s %s\n", action.text.c_str(), value, behind);
-  }
-  std::printf("%s\n", result.verdict().c_str());
 }
 
 Result<int> exploreMoment(const ExploreCommand& command) {
@@ -184,21 +135,18 @@ void addExploreCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<ExploreCommand>();
   CLI::App* command = parent.add_subcommand(
       "explore",
-      "Explore what may follow a moment of a recording: where the ball goes, how likely goals are, "
-      "and which action of a robot is best.\n"
-      "Example: pitchboard-cli explore match.mcap --at 1:18.7 --robot B2");
+      "Explore what may follow a moment of a recording: where the ball goes, and how likely goals "
+      "are.\n"
+      "Example: pitchboard-cli explore match.mcap --at 1:18.7");
   command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
   command->add_option("--at", options->at, "The moment to explore")->required()->type_name("T");
-  command->add_option("--robot", options->robot, "Compare the actions of this robot: B2")
-      ->type_name("ROBOT");
   command->add_option("--seconds", options->seconds, "Length of a rollout in seconds")
       ->type_name("S")
       ->check(CLI::Range(1.0, 600.0))
       ->capture_default_str();
   command
-      ->add_option(
-          "--rollouts", options->rollouts,
-          "Largest number of rollouts of each action; fewer if the result is clear earlier")
+      ->add_option("--rollouts", options->rollouts,
+                   "Largest number of rollouts; fewer if the result is precise enough earlier")
       ->type_name("N")
       ->check(CLI::Range(std::size_t{2}, std::size_t{1'000'000}))
       ->capture_default_str();

@@ -4,32 +4,87 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <base/file_target.h>
+#include <base/try.h>
+#include <robotlink/report/report.h>
 #include <robotlink/session/live_moments.h>
+#include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_choice.h>
+#include <robotlink/session/session_events.h>
+#include <telemetry/session/session_reader.h>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "picture_export.h"
 #include "progress.h"
-#include "report_command.h"
 
 namespace pitchboard::cli {
 namespace {
+
+/// Writes the part of the session in the closed range (s, may exceed the session) as an HTML page.
+Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
+                          const std::vector<std::string>& robots, const std::string& output,
+                          IfExists ifExists) {
+  if (output.empty()) {
+    return failure(ErrorCode::InvalidArgument, "a report needs a file: add -o FILE.html");
+  }
+  const auto all = session.range();
+  if (!all) return failure(ErrorCode::NotFound, "the recording is empty");
+  const telemetry::TimeRange part{std::max(range.begin, all->begin), std::min(range.end, all->end)};
+  if (!(part.begin <= part.end)) {
+    return failure(ErrorCode::InvalidArgument, "this part of the recording is empty");
+  }
+  link::ReportContent content;
+  content.session = session.info();
+  content.title = session.info().title;
+  content.statistics = link::statisticsOf(session, part);
+  content.events = link::eventsOf(session);
+  const link::RobotChoice chosen = TRY(link::RobotChoice::of(session, robots));
+  link::keepRobots(content, chosen);
+  content.notes = session.notes();
+  if (session.isGrowing()) {
+    content.notes.push_back("The recording had not ended when this report was written.");
+  } else if (!session.complete()) {
+    content.notes.push_back("The recording is truncated.");
+  }
+
+  link::RecordedFrames frames(link::backdropOf(session), chosen);
+  const link::MatchFrame frame = frames.frameAt(session, part.end);
+  if (!frame.robots.empty()) {
+    if (const auto picture = svgPicture(session, part.end)) {
+      content.picture = *picture;
+      char caption[96];
+      std::snprintf(caption, sizeof caption, "The field at %.1f s%s", part.end,
+                    frame.truthKnown ? "; dashed: where the robots believe they are."
+                                     : ", as reported by the robots.");
+      content.pictureCaption = caption;
+    } else {
+      content.notes.push_back("Could not paint the field: " + picture.error().text());
+    }
+  }
+  return link::writeReport(output, content, ifExists, session.file().contents().name);
+}
 
 using namespace telemetry;
 
 constexpr const char* reportFormat = "report";
 
 struct ExportOptions {
-  std::string file, format = "csv-wide", output;
+  std::string file, format, output;
   std::string from, until;
   std::vector<std::string> robots, variables;
   bool rowsOnly = false, clock = false, interpolate = false;
   double rate = 10.0;
-  bool progress = false;
+  bool force = false, progress = false;
 };
 
 struct Part {
@@ -68,6 +123,25 @@ struct FormatOption {
   std::vector<std::string_view> formats;
 };
 
+/// Returns what --to says; without it, the format that the output's name says.
+Result<std::string> formatOf(const ExportOptions& options) {
+  if (!options.format.empty()) return options.format;
+  if (options.output.empty()) return std::string("csv-wide");
+  static const std::pair<const char*, const char*> endings[] = {
+      {".csv", "csv-wide"}, {".jsonl", "jsonl"}, {".mcap", "mcap"}, {".html", reportFormat},
+      {".svg", "svg"},      {".png", "png"},     {".mp4", "mp4"},   {".webm", "webm"}};
+  std::error_code unknown;
+  // Devices and pipes have no endings.
+  if (std::filesystem::is_other(options.output, unknown)) return std::string("csv-wide");
+  for (const auto& [ending, format] : endings) {
+    if (options.output.ends_with(ending)) return std::string(format);
+  }
+  return failure(ErrorCode::InvalidArgument,
+                 "The name \"" + options.output +
+                     "\" does not tell the format. Choose one with --to, or a name that ends in "
+                     ".csv, .jsonl, .mcap, .html, .svg, .png, .mp4 or .webm.");
+}
+
 /// Refuses options that would be ignored.
 Result<void> checkOptions(const CLI::App& command, const std::string& format) {
   static const FormatOption limited[] = {
@@ -99,6 +173,8 @@ int exportSession(const ExportOptions& options) {
     return reportError(
         {ErrorCode::InvalidArgument, "MCAP output needs a file: add -o FILE.mcap", {}});
   }
+  const auto old = ifExists(options.output, options.force, options.file);
+  if (!old) return reportError(old.error());
   const InterruptGuard signals;
   Progress progress("exporting", options.progress);
   McapReaderOptions reading;
@@ -110,17 +186,17 @@ int exportSession(const ExportOptions& options) {
   ExportSelection selection;
   selection.range.begin = part->from.value_or(selection.range.begin);
   selection.range.end = part->until.value_or(selection.range.end);
-  selection.robots = link::groupsNamed(*session, options.robots);
+  selection.robots = options.robots;
   if (const auto good = checkSelection(*session, selection); !good) {
     return reportError(good.error());
   }
   if (asReport || asPicture) {
-    const auto done = asReport
-                          ? exportReport(*session, selection.range, options.robots, options.output)
-                          : exportPictures(*session,
-                                           {options.format, part->from, part->until, options.rate,
-                                            options.output, options.robots},
-                                           std::ref(progress));
+    const auto done =
+        asReport ? exportReport(*session, selection.range, options.robots, options.output, *old)
+                 : exportPictures(*session,
+                                  {options.format, part->from, part->until, options.rate,
+                                   options.output, options.robots, *old},
+                                  std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
@@ -132,24 +208,26 @@ int exportSession(const ExportOptions& options) {
   if (*format == ExportFormat::Mcap) {
     selection.opening = link::openingAt(*session, selection.range.begin);
   }
-  link::chooseRobots(*session, *format, selection);
+  if (const auto chosen = link::chooseRobots(*session, *format, selection); !chosen) {
+    return reportError(chosen.error());
+  }
+  std::optional<Error> stopped;  // of standard output
   const auto report = [&] {
     if (!options.output.empty()) {
-      return exportFile(*session, *format, selection, options.output, std::ref(progress));
+      return exportFile(*session, *format, selection, options.output, std::ref(progress), *old);
     }
     return exportText(
         *session, *format, selection,
-        [](std::string_view text) {
-          return std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+        [&](std::string_view text) {
+          if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return true;
+          stopped = shared::outputError(errno);
+          return false;
         },
         std::ref(progress));
   }();
   for (const std::string& note : session->notes())
     std::fprintf(stderr, "warning: %s\n", note.c_str());
-  if (!report) return reportError(report.error());
-  if (std::fflush(stdout) != 0) {
-    return reportError({ErrorCode::SystemError, "Cannot write to standard output.", {}});
-  }
+  if (!report) return reportError(stopped.value_or(report.error()));
   return 0;
 }
 
@@ -177,9 +255,9 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
           "--to", options->format,
           "csv-wide (a row per time), csv-even (resampled at --rate), csv-long (a row per value), "
           "jsonl, mcap, report (HTML), svg or png (the field at --from), mp4 or webm (a video, "
-          "needs ffmpeg)")
-      ->type_name("FORMAT")
-      ->capture_default_str();
+          "needs ffmpeg). Without it, the name of the output says the format; on standard output "
+          "csv-wide")
+      ->type_name("FORMAT");
   command->add_option("--from", options->from, std::string("Start: ") + sessionTimeForms)
       ->type_name("T");
   command->add_option("--until", options->until, "End; same format as --from")->type_name("T");
@@ -207,11 +285,13 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
   command
       ->add_option("-o,--output", options->output, "Write this new file instead of standard output")
       ->type_name("FILE");
+  addForce(*command, options->force);
   command->add_flag("--progress", options->progress,
                     "Print progress to stderr even if it is not a terminal");
-  command->callback([options, command, &exitCode] {
-    const auto good = checkOptions(*command, options->format);
-    exitCode = good ? exportSession(*options) : reportError(good.error());
+  whenChosen(*command, options, exitCode, [command](ExportOptions& chosen) -> Result<int> {
+    chosen.format = TRY(formatOf(chosen));
+    TRY(checkOptions(*command, chosen.format));
+    return exportSession(chosen);
   });
 }
 

@@ -7,7 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <telemetry/series/group_attributes.h>
 #include <telemetry/series/group_order.h>
+#include <telemetry/wire/text_errors.h>
 
 #include "commands.h"
 #include "interrupt.h"
@@ -37,15 +39,37 @@ std::string wallText(WallTime time) {
   return text.data();
 }
 
+/// A channel that is not in our format.
+struct Topic {
+  std::string name, encoding, schema, schemaEncoding;
+  std::uint64_t messages = 0;
+};
+
+std::vector<Topic> otherTopics(const SessionReader& session) {
+  const McapContents& contents = session.file().contents();
+  std::vector<Topic> topics;
+  for (const std::uint16_t id : session.otherChannels()) {
+    const McapChannel& channel = contents.channels.at(id);
+    Topic topic{channel.topic, channel.messageEncoding, {}, {}};
+    if (const auto schema = contents.schemas.find(channel.schema);
+        schema != contents.schemas.end()) {
+      topic.schema = schema->second.name;
+      topic.schemaEncoding = schema->second.encoding;
+    }
+    const auto counted = contents.statistics.perChannel.find(id);
+    if (counted != contents.statistics.perChannel.end()) topic.messages = counted->second;
+    topics.push_back(std::move(topic));
+  }
+  std::ranges::sort(topics, {}, &Topic::name);
+  return topics;
+}
+
 Json toJson(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
-  Json out{{"file", options.file},
-           {"bytes", session.file().contents().fileBytes},
-           {"complete", session.complete()},
-           {"damaged", session.isDamaged()},
-           {"program", info.program},
-           {"source", info.source},
-           {"title", info.title}};
+  Json out{{"file", options.file},           {"bytes", session.file().contents().fileBytes},
+           {"complete", session.complete()}, {"recording", session.isGrowing()},
+           {"damaged", session.isDamaged()}, {"program", info.program},
+           {"source", info.source},          {"title", info.title}};
   if (info.seed) out["seed"] = *info.seed;
   out["start"] = unixSeconds(info.start);
   out["created"] = unixSeconds(info.created);
@@ -61,12 +85,20 @@ Json toJson(const SessionReader& session, const InspectOptions& options) {
     for (const ColumnInfo& column : group.info.columns) columns.push_back(column.name);
     out["groups"].push_back({{"name", group.info.name},
                              {"rows", group.rows},
-                             {"attributes", group.info.attributes},
+                             {"attributes", telemetry::attributesOf(group.info)},
                              {"columns", columns}});
   }
   out["messages"] = Json::object();
   for (std::size_t i = 0; i < streamNames.size(); ++i) {
     out["messages"][std::string(streamNames[i])] = session.count(static_cast<SessionStream>(i));
+  }
+  out["topics"] = Json::array();
+  for (const Topic& topic : otherTopics(session)) {
+    out["topics"].push_back({{"topic", topic.name},
+                             {"messages", topic.messages},
+                             {"encoding", topic.encoding},
+                             {"schema", topic.schema},
+                             {"schemaEncoding", topic.schemaEncoding}});
   }
   out["attachments"] = Json::array();
   for (const auto& attachment : session.file().contents().attachments) {
@@ -88,7 +120,8 @@ void printText(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
   std::printf("%s: %.3f MB%s\n", options.file.c_str(),
               static_cast<double>(session.file().contents().fileBytes) / 1e6,
-              session.complete() && !session.isDamaged()
+              session.isGrowing() ? "; still being recorded"
+              : session.complete() && !session.isDamaged()
                   ? ""
                   : "; truncated or damaged: recover it with pitchboard-cli repair");
   if (session.ours()) {
@@ -111,6 +144,15 @@ void printText(const SessionReader& session, const InspectOptions& options) {
       std::printf("  %-11s %7llu messages\n", std::string(streamNames[i]).c_str(),
                   static_cast<unsigned long long>(count));
     }
+  }
+  for (const Topic& topic : otherTopics(session)) {
+    std::printf(
+        "  %s %7llu messages  %s (%s)\n", padded(printable(topic.name), 30).c_str(),
+        static_cast<unsigned long long>(topic.messages),
+        topic.schema.empty() ? "no schema" : printable(topic.schema).c_str(),
+        printable(topic.schemaEncoding.empty() ? topic.encoding
+                                               : topic.encoding + ", " + topic.schemaEncoding)
+            .c_str());
   }
   for (const auto& attachment : session.file().contents().attachments) {
     std::printf("  attachment %s, %llu bytes\n", attachment.name.c_str(),
@@ -139,7 +181,8 @@ int inspectSession(const InspectOptions& options) {
   } else {
     printText(*session, options);
   }
-  return session->complete() && session->notes().empty() ? 0 : 1;
+  const bool isReadable = session->complete() || session->isGrowing();
+  return isReadable && session->notes().empty() ? 0 : 1;
 }
 
 }  // namespace
@@ -150,7 +193,7 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
       parent.add_subcommand("inspect",
                             "Summarize a recording and check that all of it can be "
                             "read. Exits with 1 if it is truncated or damaged, or if "
-                            "part of it is unknown.\n"
+                            "part of it is unknown, as in files of other programs.\n"
                             "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
   command->add_flag("--json", options->json, "Print one JSON object");

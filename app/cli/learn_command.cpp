@@ -22,6 +22,14 @@ struct LearnOptions {
 Result<int> learnTeam(const LearnOptions& options) {
   const auto learning = TRY(link::loadLearning(options.file));
   const Shard shard = TRY(shardFrom(options.play.shard));
+  if (options.play.force) {
+    if (shard.count > 1) {
+      return failure(ErrorCode::InvalidArgument,
+                     "--force cannot be used with --shard, because the shards share the folder; "
+                     "remove the folder before you start them");
+    }
+    TRY(link::discardLearning(options.play.folder));
+  }
   const InterruptGuard signals;
   Progress progress(learning.name, options.play.progress);
   link::LearnSettings settings{options.play.folder, shard.index, shard.count};

@@ -18,7 +18,7 @@ namespace pitchboard::cli {
 namespace {
 
 struct PrintOptions {
-  ListenOptions network;
+  OptionValues network;
   std::optional<double> duration;
   std::string monitor;
   bool json = false;
@@ -36,7 +36,9 @@ class Printer : public link::LiveObserver {
     if (datagram.isFromRefusedSender() || (state && version != 0 && state->version != version))
       return;
     if (!m_json) {
-      put(datagram.view.time, datagram.view.sender.text(), messageLine(datagram, m_options));
+      std::string line;
+      addMessageLine(line, datagram, m_options);
+      put(datagram.view.time, datagram.view.sender.text(), line);
       return;
     }
     Json json{{"type", typeOf(datagram)},
@@ -90,7 +92,7 @@ class Printer : public link::LiveObserver {
   }
 
  private:
-  static constexpr std::size_t mostBytes = std::size_t{64} << 20;  // waiting
+  static constexpr std::size_t maxBytes = std::size_t{64} << 20;  // waiting
 
   void put(telemetry::WallTime time, const std::string& sender, const std::string& line) {
     char head[64];
@@ -101,7 +103,7 @@ class Printer : public link::LiveObserver {
   void put(const std::string& line) {
     {
       const std::lock_guard lock(m_mutex);
-      if (m_lines.size() + line.size() > mostBytes) {
+      if (m_lines.size() + line.size() > maxBytes) {
         ++m_left;
         return;
       }
@@ -175,7 +177,7 @@ Result<int> listenToRobots(const PrintOptions& options) {
     if (now >= nextLook) {
       nextLook = now + milliseconds(100);
       const link::LiveDetails details = watch.details();
-      reportPorts(details.network, reported);
+      reportPorts(details, reported);
       if (!details.monitorProblem.empty()) {
         return failure(ErrorCode::SystemError, details.monitorProblem);
       }

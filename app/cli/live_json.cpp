@@ -22,22 +22,23 @@ Json errorList(const TextErrors& errors) {
 }
 
 std::string stateLine(const RefereeState& state) {
+  const Game game = gameOf(state);
   std::string out = "referee v" + std::to_string(state.version) + "  " +
-                    std::string(stateName(state.state)) + "  " +
-                    (state.firstHalf != 0 ? "1st half" : "2nd half") + "  ";
-  const int time = state.secsRemaining;
+                    std::string(labelOf(game.state)) + "  " +
+                    (game.half == 1 ? "1st half" : "2nd half") + "  ";
+  const int time = game.secondsLeft();
   char clock[32];
   std::snprintf(clock, sizeof clock, "%s%02d:%02d", time < 0 ? "-" : "", std::abs(time) / 60,
                 std::abs(time) % 60);
   out += clock;
-  for (const RefereeTeam& team : state.teams) {
-    out += "  team " + std::to_string(team.number) + " (" + std::string(colourLabel(team.colour)) +
+  for (const GameTeam& team : game.teams) {
+    out += "  team " + std::to_string(team.number) + " (" + std::string(info(team.colour).name) +
            "): " + std::to_string(team.score);
-    for (const RefereePlayer& player : team.players()) {
-      if (player.penalty == 0 || isSubstitute(state, player)) continue;
-      out += ", player " + std::to_string(player.number) + " " +
-             std::string(penaltyLabel(state, player)) + " " + std::to_string(player.secondsLeft) +
-             " s";
+    for (const int shirt : team.onField()) {
+      const GamePlayer& player = *team.player(shirt);
+      if (player.penalty == PenaltyKind::None) continue;
+      out += ", player " + std::to_string(shirt) + " " + std::string(labelOf(player.penalty)) +
+             " " + std::to_string(player.ticksLeft) + " s";
     }
   }
   return state.trueData() ? out + "  (true data)" : out;
@@ -90,19 +91,22 @@ Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
   return json;
 }
 
-std::string telemetryLine(const link::LiveDatagram& datagram, const std::string& team,
-                          const std::string& robot) {
+void addTelemetryLine(std::string& out, const link::LiveDatagram& datagram, const std::string& team,
+                      std::string_view robot) {
   const TextDecoder& decoder = *datagram.decoder;
   const DecodedText& message = *datagram.decoded;
-  std::string out;
   if (message.accepted()) {
-    if (!team.empty()) out = team + "  ";
+    if (!team.empty()) out.append(team).append("  ");
     out += robot;
+    const auto& fields = decoder.profile().fields;
     for (std::size_t i = 0; i < message.count; ++i) {
       if (message.texts[i].empty()) continue;
-      out += "  " + decoder.name(message, i) + " " + printable(message.texts[i], 40);
+      out += "  ";
+      out += i < fields.size() ? fields[i].name : decoder.name(message, i);
+      out += ' ';
+      addPrintable(out, message.texts[i], 40);
     }
-    if (message.errors.empty()) return out;
+    if (message.errors.empty()) return;
     out += "  ";
   }
   out += "[";
@@ -113,7 +117,8 @@ std::string telemetryLine(const link::LiveDatagram& datagram, const std::string&
     out += (first ? "" : ", ") + std::string(errorText(error));
     first = false;
   }
-  return out + "] " + printable(datagram.view.payload, 120);
+  out += "] ";
+  addPrintable(out, datagram.view.payload, 120);
 }
 
 Json variablesJson(const link::LiveDatagram& datagram, const std::string& robot) {
@@ -202,16 +207,23 @@ Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& op
   return json;
 }
 
-std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options) {
+void addMessageLine(std::string& out, const link::LiveDatagram& datagram,
+                    const link::LiveOptions& options) {
   if (datagram.referee) {
-    return *datagram.referee ? refereeLine(**datagram.referee)
+    out += *datagram.referee ? refereeLine(**datagram.referee)
                              : "[" + datagram.referee->error().message + "]";
+    return;
   }
   const std::string robot = nameOf(datagram.robot, datagram.teams);
-  if (datagram.variables) return variablesLine(datagram, robot);
-  if (datagram.decoded) return telemetryLine(datagram, teamOf(datagram.robot, options), robot);
-  if (datagram.drawingProblem) return "[drawing: " + *datagram.drawingProblem + "]";
-  return robot + "  drawing, " + std::to_string(datagram.view.payload.size()) + " bytes";
+  if (datagram.variables) {
+    out += variablesLine(datagram, robot);
+  } else if (datagram.decoded) {
+    addTelemetryLine(out, datagram, teamOf(datagram.robot, options), robot);
+  } else if (datagram.drawingProblem) {
+    out += "[drawing: " + *datagram.drawingProblem + "]";
+  } else {
+    out += robot + "  drawing, " + std::to_string(datagram.view.payload.size()) + " bytes";
+  }
 }
 
 Json healthJson(const RobotStatus& robot, const std::string& name, WallTime now) {
@@ -231,6 +243,7 @@ Json healthJson(const RobotStatus& robot, const std::string& name, WallTime now)
           {"age", secondsOf(robot.age)},
           {"timedOut", robot.timedOut},
           {"recoveries", robot.recoveries},
+          {"offline", secondsOf(robot.offline)},
           {"errors", robot.errorCount},
           {"bytes", robot.bytes},
           {"sender", robot.sender.text()},

@@ -23,7 +23,8 @@ std::string nameOf(const RobotKey& robot, const link::Teams& teams);
 /// Returns the content of a datagram (docs/live.md). If it could not be decoded, "text" has its
 /// bytes as text.
 Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
-std::string messageLine(const link::LiveDatagram& datagram, const link::LiveOptions& options);
+void addMessageLine(std::string& out, const link::LiveDatagram& datagram,
+                    const link::LiveOptions& options);
 
 /// Returns {"type": "health", "robot": 1, "name": "B1", "received": 900, "lost": 300, ...}
 /// (docs/live.md).

@@ -19,14 +19,15 @@ int main(int argc, char** argv) try {
 
   int exitCode = 0;
   constexpr std::array commands{
-      &addSimulateCommand, &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
-      &addListenCommand,   &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
-      &addRepairCommand,   &addExportCommand,      &addExperimentCommand,  &addTournamentCommand,
-      &addTestCommand,     &addCalibrateCommand,   &addLearnCommand,       &addExploreCommand};
+      &addSimulateCommand,   &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
+      &addListenCommand,     &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
+      &addRepairCommand,     &addExportCommand,      &addImportCommand,      &addExperimentCommand,
+      &addTournamentCommand, &addTestCommand,        &addCalibrateCommand,   &addLearnCommand,
+      &addExploreCommand,    &addRerunCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
-  if (const auto ended = pitchboard::shared::parse(app, argc, argv)) return *ended;
-  return exitCode;
+  if (const auto ended = pitchboard::shared::parse(app, argc, argv)) exitCode = *ended;
+  return pitchboard::shared::checkOutput(exitCode);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "error: %s\n", error.what());
   return pitchboard::shared::exitRefused;

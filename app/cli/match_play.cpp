@@ -25,14 +25,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto pollInterval = 50ms;
 
-struct CognitionName {
-  const char* name;
-  link::Cognition cognition;
-};
-constexpr std::array<CognitionName, 3> cognitions{{{"inline", link::Cognition::Inline},
-                                                   {"separate", link::Cognition::Separate},
-                                                   {"none", link::Cognition::None}}};
-
 /// Prints what processes write, and what happens to them.
 class ProcessNews : public link::TickObserver {
  public:
@@ -108,20 +100,9 @@ class Playing {
 
 void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
   shared::addScenarioOptions(command, o.match);
-  command
-      .add_option("--speed", o.speed,
-                  "Speed relative to real time, 0.01 to 1000, or max; default: max with inline "
-                  "cognition, 1 with "
-                  "separate processes, a team's programs or --obey-referee")
-      ->type_name("X|max");
+  shared::addRobotsOptions(command, o.robots);
   command.add_flag("--keep-speed", o.keepSpeed,
                    "Do not slow down to team programs that cannot keep up");
-  command
-      .add_option("--cognition", o.cognition,
-                  "Who decides: this program (inline), separate processes on System V blackboards "
-                  "(separate), or only processes that you start (none)")
-      ->type_name("inline|separate|none")
-      ->capture_default_str();
   std::string ruleSets;
   for (const link::RuleSetInfo& set : link::refereeRuleSets()) ruleSets += ", " + set.name;
   command
@@ -141,7 +122,6 @@ void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
       ->type_name("PORT")
       ->check(CLI::Range(0, 65535))
       ->needs("--obey-referee");
-  shared::addRobotsOptions(command, o.robots);
   command
       .add_option("--robot-program", o.robotProgram,
                   "Program of separate processes; default: pitchboard-robot beside this program")
@@ -150,19 +130,9 @@ void addPlayOptions(CLI::App& command, MatchPlayOptions& o) {
   shared::addGroup(command, "Referee", {"--obey-referee", "--answer-referee"});
 }
 
-Result<link::Cognition> cognitionOf(const MatchPlayOptions& options) {
-  // The name up to version 0.14.
-  if (options.cognition == "external") return link::Cognition::Separate;
-  const auto found =
-      std::ranges::find_if(cognitions, [&](const auto& c) { return options.cognition == c.name; });
-  if (found != cognitions.end()) return found->cognition;
-  return failure(ErrorCode::InvalidArgument,
-                 "--cognition must be inline, separate or none, not \"" + options.cognition + "\"");
-}
-
 Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario) {
-  const std::string& text = options.speed;
+  const std::string& text = options.robots.speed;
   if (text.empty()) {
     const bool ownPace = cognition == link::Cognition::Inline && !options.obeyReferee &&
                          !TRY(link::usesTeamPrograms(scenario));

@@ -24,11 +24,9 @@ struct MatchPlayOptions {
   shared::ScenarioOptions match;
   shared::RobotsOptions robots;
   std::optional<double> duration;  ///< s
-  std::string speed;               ///< "max" or a number; empty: depends on the cognition
   bool keepSpeed = false;          ///< also when team programs cannot keep up
-  std::string cognition = "inline";
-  std::string rules;         ///< of the referee; empty: the scenario's
-  std::string robotProgram;  ///< empty: pitchboard-robot beside this program
+  std::string rules;               ///< of the referee; empty: the scenario's
+  std::string robotProgram;        ///< empty: pitchboard-robot beside this program
   std::optional<int> obeyReferee;
   std::optional<int> answerReferee;
 };
@@ -36,8 +34,6 @@ struct MatchPlayOptions {
 /// Adds all options above except --duration, which each command describes itself.
 void addPlayOptions(CLI::App& command, MatchPlayOptions& options);
 
-/// Reads the option --cognition. Errors name the option.
-Result<link::Cognition> cognitionOf(const MatchPlayOptions& options);
 /// Returns the speed, times real time; 0: as fast as possible.
 Result<double> speedOf(const MatchPlayOptions& options, link::Cognition cognition,
                        const link::Scenario& scenario);

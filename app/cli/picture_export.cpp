@@ -144,7 +144,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
   const auto all = session.range();
   if (!all) return failure(ErrorCode::NotFound, "the recording is empty");
   const std::string& file = session.file().contents().name;
-  auto target = FileTarget::at(request.output, IfExists::Refuse, file);
+  auto target = FileTarget::at(request.output, request.ifExists, file);
   if (!target) return tl::unexpected(target.error());
   // The studio knows the format by the name.
   const std::string picture = target->partPath() + '.' + request.format;
@@ -162,7 +162,7 @@ Result<void> exportPictures(const telemetry::SessionReader& session, const Pictu
 
 Result<std::string> svgPicture(const telemetry::SessionReader& session, double time,
                                const std::vector<std::string>& robots) {
-  constexpr std::size_t mostBytes = std::size_t{64} << 20;
+  constexpr std::size_t maxBytes = std::size_t{64} << 20;
   const Folder folder;
   if (folder.path().empty()) {
     return failure(ErrorCode::SystemError, "cannot use the folder for temporary files");
@@ -171,7 +171,7 @@ Result<std::string> svgPicture(const telemetry::SessionReader& session, double t
   const auto painted =
       runStudio(paintArguments(session.file().contents().name, picture, time, robots), {});
   if (!painted) return tl::unexpected(painted.error());
-  return readFile(picture, mostBytes);
+  return readFile(picture, maxBytes);
 }
 
 }  // namespace pitchboard::cli

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/file_target.h>
 #include <telemetry/session/session_export.h>
 
 namespace pitchboard::cli {
@@ -23,6 +24,7 @@ struct PictureRequest {
   double rate = 10.0;                 ///< pictures per second of a video
   std::string output;
   std::vector<std::string> robots = {};  ///< robots to paint; empty: all
+  IfExists ifExists = IfExists::Refuse;
 };
 
 /// Writes the file, which appears when it is complete. Fails with InvalidArgument, with NotFound if

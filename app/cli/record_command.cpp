@@ -30,8 +30,8 @@ constexpr auto healthInterval = std::chrono::milliseconds(20);
 struct RecordOptions {
   std::string output;
   MatchPlayOptions play;
-  bool live = false, progress = false;
-  ListenOptions network;
+  bool live = false, force = false, progress = false;
+  OptionValues network;
 };
 
 Result<int> ended(const std::string& path, const SessionStatus& status,
@@ -76,7 +76,7 @@ class Health {
 };
 
 Result<int> recordMatch(const RecordOptions& options) {
-  const auto cognition = TRY(cognitionOf(options.play));
+  const auto cognition = shared::cognitionOf(options.play.robots);
   const auto scenario =
       TRY(scenarioToPlay(shared::scenarioFrom(options.play.match), options.play, cognition));
   const auto speed = TRY(speedOf(options.play, cognition, scenario));
@@ -84,6 +84,7 @@ Result<int> recordMatch(const RecordOptions& options) {
 
   SessionWriterOptions writing;
   writing.waitWhenFull = true;
+  writing.replace = options.force;
   const std::shared_ptr<SessionWriter> writer = TRY(SessionWriter::create(
       options.output, link::sessionInfo(match, programName, LiveClock().now()), writing));
   link::attachMatch(*writer, match.scenario(), link::VariableCatalog::published());
@@ -112,10 +113,11 @@ Result<int> recordLive(const RecordOptions& options) {
   link::LiveDetails details = TRY(whenListening(watch));
   const auto& ports = details.network.ports;
   if (std::ranges::none_of(ports, [](const PortStatus& port) { return port.bound; })) {
-    return failure(ErrorCode::SystemError, ports.front().problem, options.network.bind);
+    return failure(ErrorCode::SystemError, ports.front().problem, live.bind.text());
   }
   link::RecorderOptions recording;
   recording.program = programName;
+  recording.writer.replace = options.force;
   const auto recorder =
       TRY(link::LiveRecorder::create(options.output, live, watch.began(), recording));
   watch.observe(recorder);
@@ -129,7 +131,7 @@ Result<int> recordLive(const RecordOptions& options) {
              Clock::now() - begin >= std::chrono::duration<double>(*options.play.duration);
     };
     while (!interrupted && !isOver() && recorder->status().recording) {
-      reportPorts(watch.details().network, reported);
+      reportPorts(watch.details(), reported);
       health.showStatus(recorder->status());
       std::this_thread::sleep_for(healthInterval);
     }
@@ -145,8 +147,11 @@ Result<int> recordLive(const RecordOptions& options) {
 Result<int> record(RecordOptions& options) {
   const InterruptGuard signals;
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, not the end
-  if (!options.output.empty()) return options.live ? recordLive(options) : recordMatch(options);
-  return failure(ErrorCode::InvalidArgument, "a recording needs a file: add -o FILE.mcap");
+  if (options.output.empty()) {
+    return failure(ErrorCode::InvalidArgument, "a recording needs a file: add -o FILE.mcap");
+  }
+  TRY(ifExists(options.output, options.force));
+  return options.live ? recordLive(options) : recordMatch(options);
 }
 
 }  // namespace
@@ -165,6 +170,7 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   command->add_option("-o,--output", o.output, "Write this new recording")
       ->required()
       ->type_name("FILE.mcap");
+  addForce(*command, o.force, "Replace an existing recording");
   shared::addDuration(
       *command, "--duration", o.play.duration,
       "Stop after this time; by default when the scenario says so, at the final whistle, or "
@@ -183,6 +189,9 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
   const auto all = command->get_options();
   for (std::size_t i = before; i < all.size(); ++i) all[i]->needs(live);
   addGroup(*command, "Live", {"--profile", "--team", "--our-team"});
+  // Its help has the network's options, too, and stays on a screen.
+  addGroup(*command, "Models", {"--robot-model"});
+  addGroup(*command, "Robot processes", {"--runtime"});
   command->add_flag("--progress", o.progress,
                     "Print progress to stderr even if it is not a terminal");
   whenChosen(*command, options, exitCode, record);

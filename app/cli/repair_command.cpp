@@ -13,16 +13,18 @@ namespace {
 
 struct RepairOptions {
   std::string from, to;
-  bool progress = false;
+  bool force = false, progress = false;
 };
 
 int repairSession(const RepairOptions& options) {
+  const auto old = ifExists(options.to, options.force, options.from);
+  if (!old) return reportError(old.error());
   const InterruptGuard signals;
   Result<telemetry::RepairReport> report;
   {
     Progress progress("repairing", options.progress);
-    report = telemetry::repairSession(options.from, options.to,
-                                      [&](double part) { return progress(part); });
+    report = telemetry::repairSession(
+        options.from, options.to, [&](double part) { return progress(part); }, *old);
   }
   if (!report) return reportError(report.error());
   for (const std::string& note : report->notes) std::fprintf(stderr, "%s\n", note.c_str());
@@ -40,9 +42,8 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
       "changed.\nExits with 1 if data is missing, and prints what, with offset and time, to "
       "stderr.\nExample: pitchboard-cli repair match.mcap match-repaired.mcap");
   command->add_option("in", options->from, "The damaged recording")->required()->type_name("IN");
-  command->add_option("out", options->to, "The new file; it must not exist")
-      ->required()
-      ->type_name("OUT");
+  command->add_option("out", options->to, "The new file")->required()->type_name("OUT");
+  addForce(*command, options->force, "Replace the new file if it exists");
   command->add_flag("--progress", options->progress,
                     "Print progress to stderr even if it is not a terminal");
   command->callback([options, &exitCode] { exitCode = repairSession(*options); });

@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <memory>
+#include <string>
 
+#include <base/angles.h>
+#include <base/byte_sizes.h>
 #include <base/file_target.h>
+#include <base/result.h>
 #include <base/system_reason.h>
 #include <base/time_text.h>
 #include <base/try.h>
 #include <robotlink/capi/world_lines.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
+#include <simcore/world/snapshot.h>
 #include <telemetry/session/session_time.h>
 
 #include "commands.h"
@@ -17,9 +24,103 @@
 #include "match_play.h"
 #include "progress.h"
 #include "simulate_report.h"
-#include "trace_writer.h"
 
 namespace pitchboard::cli {
+
+/// Writes a simulated match as CSV: a row per tick, in metres, metres per second and degrees. The
+/// file appears when it is complete. One thread at a time.
+class TraceWriter {
+ public:
+  /// Writes the header for the robots of `first`. Fails as FileTarget does; `source` is the file
+  /// that is read and must not be overwritten.
+  static Result<TraceWriter> create(const std::string& path, IfExists ifExists,
+                                    const std::string& source, const sim::Snapshot& first);
+
+  /// Adds a row. Fails if the system cannot write, for example because the disk is full.
+  Result<void> add(const sim::Snapshot& snapshot);
+  /// Completes the file, flushes it to the disk and gives it its name.
+  Result<void> finish();
+
+ private:
+  TraceWriter(FileTarget target, NewFile file)
+      : m_target(std::move(target)), m_file(std::move(file)) {}
+  Result<void> endLine();
+  Result<void> flush();
+
+  FileTarget m_target;
+  NewFile m_file;
+  std::string m_text;  ///< lines that are not written yet
+  std::string m_line;
+};
+
+namespace {
+
+template <class T>
+void append(std::string& line, T value) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value);
+  if (!line.empty()) line += ',';
+  line.append(text.data(), end.ptr);
+}
+
+constexpr std::size_t maxWaiting = 64 * kibibyte;  // bytes
+
+}  // namespace
+
+Result<TraceWriter> TraceWriter::create(const std::string& path, IfExists ifExists,
+                                        const std::string& source, const sim::Snapshot& first) {
+  auto target = TRY(FileTarget::at(path, ifExists, source));
+  auto file = TRY(target.open());
+  TraceWriter writer(std::move(target), std::move(file));
+  writer.m_line = "tick,time_s,ball_x,ball_y,ball_vx,ball_vy,score_left,score_right";
+  for (const sim::RobotSnapshot& robot : first.robots) {
+    const std::string name = robot.identity.name() + '_';
+    for (const char* column : {"x", "y", "heading_deg", "head_deg", "action"}) {
+      writer.m_line += ',' + name + column;
+    }
+  }
+  TRY(writer.endLine());
+  return writer;
+}
+
+Result<void> TraceWriter::add(const sim::Snapshot& snapshot) {
+  m_line.clear();
+  append(m_line, snapshot.tick);
+  append(m_line, snapshot.time);
+  for (const double value :
+       {snapshot.ball.x, snapshot.ball.y, snapshot.ballVelocity.x, snapshot.ballVelocity.y}) {
+    append(m_line, value);
+  }
+  append(m_line, snapshot.score.left);
+  append(m_line, snapshot.score.right);
+  for (const sim::RobotSnapshot& robot : snapshot.robots) {
+    append(m_line, robot.pose.position.x);
+    append(m_line, robot.pose.position.y);
+    append(m_line, degreesFromRadians(robot.pose.yaw));
+    append(m_line, degreesFromRadians(robot.headYaw));
+    append(m_line, robot.action);
+  }
+  return endLine();
+}
+
+Result<void> TraceWriter::endLine() {
+  m_text += m_line;
+  m_text += '\n';
+  return m_text.size() < maxWaiting ? Result<void>{} : flush();
+}
+
+Result<void> TraceWriter::flush() {
+  auto written = m_file.write(m_text);
+  m_text.clear();
+  return written;
+}
+
+Result<void> TraceWriter::finish() {
+  TRY(flush());
+  TRY(m_file.close());
+  return m_target.commit();
+}
+
 namespace {
 
 /// The next line, without its end; of one that is too long only the beginning, which is too long,
@@ -28,7 +129,7 @@ bool nextLine(std::string& line) {
   line.clear();
   int byte = 0;
   while ((byte = std::getc(stdin)) != EOF && byte != '\n') {
-    if (line.size() <= link::WorldLines::longestLine) line += static_cast<char>(byte);
+    if (line.size() <= link::WorldLines::maxLineLength) line += static_cast<char>(byte);
   }
   return byte != EOF || !line.empty();
 }
@@ -126,7 +227,7 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
 /// An old file is refused with the option that allows it.
 tl::unexpected<Error> cannotWrite(Error error, const Arguments& arguments) {
   if (error.code == ErrorCode::Conflict && !isSameFile(error.context, arguments.session)) {
-    error.message = "This file already exists. Choose another name or add --force.";
+    error.message = "This file exists; add --force to replace it, or choose another name.";
   }
   return tl::unexpected(std::move(error));
 }
@@ -149,8 +250,9 @@ class TraceRows : public link::TickObserver {
   Result<void> m_written;
 };
 
-Result<void> simulate(const Arguments& arguments) {
-  const auto cognition = TRY(cognitionOf(arguments.play));
+/// Returns the exit code.
+Result<int> simulate(const Arguments& arguments) {
+  const auto cognition = shared::cognitionOf(arguments.play.robots);
   std::optional<Recorded> recorded;
   if (!arguments.session.empty()) {
     recorded = TRY(recordedMoment(arguments));
@@ -191,7 +293,7 @@ Result<void> simulate(const Arguments& arguments) {
     if (!saved) return cannotWrite(saved.error(), arguments);
   }
   arguments.json ? printJson(player.match(), outcome) : printSummary(player.match(), outcome);
-  return {};
+  return keepsDying(player.match()) ? 1 : 0;
 }
 
 void listScenarios() {
@@ -207,7 +309,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   Arguments& a = *arguments;
   CLI::App* command = parent.add_subcommand(
       "simulate",
-      "Play a match and print how it ended.\n"
+      "Play a match and print how it ended. Exits with 1 if a robot's program kept dying.\n"
       "Examples: pitchboard-cli simulate --scenario match-3v3 --seed 7 --noise paper --json\n"
       "          pitchboard-cli simulate --scenario my.json --cognition separate --speed 1\n"
       "          echo '{\"do\": \"create\", \"worlds\": 2}' | pitchboard-cli simulate --stdio");
@@ -228,13 +330,13 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       ->needs(at);
   shared::addDuration(
       *command, "--duration", a.play.duration,
-      "Stop after this simulated time; by default when the scenario says so, at the final whistle, "
-      "or after 60 s (with --cognition none: at Ctrl+C)");
+      "Stop after this simulated time; default: the scenario's end, the final whistle, or 60 s "
+      "(with --cognition none: Ctrl+C)");
   command->add_option("--trace", a.trace, "Write a CSV file with one row per tick")
       ->type_name("FILE.csv");
   command->add_option("--save-moment", a.moment, "Save the last moment as a scenario file")
       ->type_name("FILE.json");
-  command->add_flag("--force", a.force, "Overwrite existing files");
+  addForce(*command, a.force, "Replace existing files");
   command->add_flag("--json", a.json, "Print the result as a JSON object");
   command->add_flag("--list", a.list, "List the built-in scenarios");
   CLI::Option* stdio = command->add_flag(
@@ -249,7 +351,7 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
     stdio->excludes(command->get_option(other));
   }
   addGroup(*command, "Continue a recording", {"--from", "--at", "--clock"});
-  addGroup(*command, "Other output", {"--trace", "--force", "--stdio"});
+  addGroup(*command, "Other output", {"--trace", "--save-moment", "--force", "--stdio"});
   command->callback([arguments, &exitCode] {
     if (arguments->list) return listScenarios();
     if (arguments->stdio) {
@@ -260,7 +362,8 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
       if (!served) exitCode = reportError(served.error());
       return;
     }
-    if (const auto done = simulate(*arguments); !done) exitCode = reportError(done.error());
+    const auto done = simulate(*arguments);
+    exitCode = done ? *done : reportError(done.error());
   });
 }
 

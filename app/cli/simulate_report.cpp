@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "simulate_report.h"
 
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -46,9 +47,21 @@ nlohmann::ordered_json programsJson(const link::SimulatedMatch& match) {
                         {"speed", one.achieved > 0.0 ? one.achieved : one.speed},
                         {"kept", keptOf(one)},
                         {"cycles", one.cycles},
-                        {"missed_cycles", one.missedCycles}});
+                        {"missed_cycles", one.missedCycles},
+                        {"lines_left_out", one.linesLeftOut}});
   }
   return programs;
+}
+
+nlohmann::ordered_json deathsJson(const link::SimulatedMatch& match) {
+  auto died = nlohmann::ordered_json::array();
+  for (const link::ProcessStatus& one : match.robots().processes().statuses()) {
+    if (one.deaths == 0) continue;
+    died.push_back({{"name", robotName(match, one.robot) + ' ' + one.name},
+                    {"times", one.deaths},
+                    {"last", one.lastDeath}});
+  }
+  return died;
 }
 
 const char* reasonText(const std::string& finishedBy) {
@@ -74,6 +87,11 @@ std::string noiseName(const sim::NoiseParameters& noise) {
   return "custom";
 }
 
+bool keepsDying(const link::SimulatedMatch& match) {
+  return std::ranges::any_of(match.robots().processes().statuses(),
+                             &link::ProcessStatus::keepsDying);
+}
+
 void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   const sim::Snapshot now = match.simulation().snapshot();
   const link::Scenario& scenario = match.scenario();
@@ -89,12 +107,23 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   if (!match.isRepeatable()) {
     std::printf("  Repeatable no: the match did not wait for a program's decision\n");
   }
+  for (const link::ProcessStatus& one : match.robots().processes().statuses()) {
+    if (one.deaths == 0) continue;
+    std::printf("  Died       %s %s, %d %s: %s\n", robotName(match, one.robot).c_str(),
+                one.name.c_str(), one.deaths, one.deaths == 1 ? "time" : "times",
+                one.lastDeath.c_str());
+  }
   for (const link::ProcessStatus& one : teamPrograms(match)) {
     if (one.missedCycles == 0) continue;
     std::printf("  Missed     %" PRIu64 " of %" PRIu64
                 " cycles by %s %s, which reaches %.1f x real time\n",
                 one.missedCycles, one.cycles + one.missedCycles,
                 robotName(match, one.robot).c_str(), one.name.c_str(), one.achieved);
+  }
+  for (const link::ProcessStatus& one : match.robots().processes().statuses()) {
+    if (one.linesLeftOut == 0) continue;
+    std::printf("  Left out   %" PRIu64 " lines that %s %s wrote too fast\n", one.linesLeftOut,
+                robotName(match, one.robot).c_str(), one.name.c_str());
   }
   if (now.robots.empty()) return;
   std::printf("  Robot   walked   kicks  falls  unknown actions\n");
@@ -126,6 +155,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
     if (!team.name.empty()) one["name"] = team.name;
     one["score"] = team.score;
     if (!team.byHalf.empty()) one["by_half"] = team.byHalf;
+    if (team.wonToss) one["won_toss"] = true;
     teams.push_back(std::move(one));
   }
   Json out{{"scenario", match.scenario().name},
@@ -143,6 +173,7 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
            {"state_hash", hashText(match.simulation().hash())},
            {"repeatable", result.repeatable}};
   if (Json programs = programsJson(match); !programs.empty()) out["programs"] = std::move(programs);
+  if (Json died = deathsJson(match); !died.empty()) out["died"] = std::move(died);
   std::printf("%s\n", out.dump().c_str());
 }
 

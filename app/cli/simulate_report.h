@@ -23,6 +23,8 @@ std::string noiseName(const sim::NoiseParameters& noise);
 
 /// Prints a line with the score and why the match ended.
 void printResult(const link::SimulatedMatch& match, const Outcome& outcome);
+/// Returns whether a program of a robot died again and again, or has died and does not run.
+bool keepsDying(const link::SimulatedMatch& match);
 void printSummary(const link::SimulatedMatch& match, const Outcome& outcome);
 void printJson(const link::SimulatedMatch& match, const Outcome& outcome);
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include <app/option_arguments.h>
 #include <app/scenario_options.h>
 #include <base/file_target.h>
 #include <base/read_file.h>
@@ -33,8 +34,8 @@ Result<int> playTournament(const TournamentOptions& options) {
   const int ended = TRY(playInto(tournament, options.play));
   const auto results = std::filesystem::path(options.play.folder) / "junit.xml";
   if (options.junit.empty() || !std::filesystem::exists(results)) return ended;
-  constexpr std::size_t mostBytes = std::size_t{1} << 30;
-  const auto text = TRY(readFile(results.string(), mostBytes, "the results"));
+  constexpr std::size_t maxBytes = std::size_t{1} << 30;
+  const auto text = TRY(readFile(results.string(), maxBytes, "the results"));
   TRY(writeFile(options.junit, text, IfExists::Replace));
   return ended;
 }
@@ -65,7 +66,8 @@ void addTournamentCommand(CLI::App& parent, int& exitCode) {
       ->type_name("N");
   command
       ->add_option("--advisor", o.advised,
-                   "Let the team of this name think ahead (docs/advisor.md); may be repeated")
+                   "Let the keeper of the team of this name learn where the opponents aim "
+                   "(docs/advisor.md); may be repeated")
       ->type_name("TEAM");
   command->add_option("--junit", o.junit, "Also write the results as JUnit XML to this file")
       ->type_name("FILE.xml");

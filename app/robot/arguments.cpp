@@ -200,40 +200,19 @@ void addOptions(CLI::App& command, Arguments& a) {
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
   command
-      .add_option("--advisor-rollouts", a.process.advisor.rollouts,
-                  "Advisor: rollouts for a decision, while a match waits for it")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(4, 5000));
-  command
-      .add_option("--advisor-horizon", a.process.advisor.horizon,
-                  "Advisor: seconds that a rollout plays ahead")
-      ->type_name("S")
-      ->capture_default_str()
-      ->check(CLI::Range(0.5, 30.0));
-  command
-      .add_option("--advisor-share", a.process.advisor.share,
-                  "Advisor: share of a processor core that it uses, when no match waits for it")
-      ->type_name("SHARE")
-      ->capture_default_str()
-      ->check(CLI::Range(0.01, 1.0));
-  command
       .add_option("--advisor-memory", a.process.advisor.memory,
                   "Advisor: file with what it learns of the opponents; read at the start, written "
                   "when play stops and at the end")
       ->type_name("FILE");
   command.add_flag("!--advisor-memory-read-only", a.process.keepsMemory,
                    "Advisor: do not write that file");
-  command.add_flag("!--advisor-learns-nothing", a.process.advisor.learns,
-                   "Advisor: do not learn from what the opponents do");
   shared::addGroup(
       command, "Network",
       {"--udp-address", "--telemetry-port-base", "--telemetry-rate", "--team-port-base", "--team",
        "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization",
-                    "--advisor-rollouts", "--advisor-horizon", "--advisor-share",
-                    "--advisor-memory", "--advisor-memory-read-only", "--advisor-learns-nothing"});
+                    "--advisor-memory", "--advisor-memory-read-only"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {

@@ -29,11 +29,7 @@ struct Arguments {
   std::optional<double> distanceToKick;  // instead of the behaviour's
   double telemetryRate = 1.0;            // Hz
   std::optional<int> cognitionDebugPort;
-  link::ProcessOptions process = [] {
-    link::ProcessOptions usual;
-    usual.advisor.share = 0.25;
-    return usual;
-  }();
+  link::ProcessOptions process;
 
   int blackboardKey() const;  // valid after settle()
 };

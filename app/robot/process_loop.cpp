@@ -89,12 +89,12 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
                            link::LockStepSlot& slot, link::CognitionDebugSender* display) {
   // While the match is paused: how soon a signal is noticed, and how often debug data is sent
   // again, because displays drop data that is not repeated.
-  constexpr std::chrono::milliseconds longestWait{100}, refreshPeriod{1000};
+  constexpr std::chrono::milliseconds maxWait{100}, refreshPeriod{1000};
   Display shown(robot, display);
   slot.ready(process->period());
   double last = 0.0;
   while (true) {
-    const auto cycle = slot.wait(longestWait);
+    const auto cycle = slot.wait(maxWait);
     if (cycle) {
       if (cycle->seconds < last) {
         process.reset();  // its ports are free again

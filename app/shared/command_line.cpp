@@ -2,9 +2,11 @@
 #include <app/command_line.h>
 #include <app/usage.h>
 
+#include <cerrno>
 #include <charconv>
 #include <cstdio>
 
+#include <base/system_reason.h>
 #include <base/time_text.h>
 
 namespace pitchboard::shared {
@@ -14,7 +16,24 @@ int reportError(const Error& error) {
   return exitRefused;
 }
 
-std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+Error outputError(int reason) {
+  return {ErrorCode::SystemError,
+          "Cannot write to standard output" +
+              (reason == 0 ? std::string() : ": " + systemReason(reason)) +
+              ". The output is incomplete.",
+          {}};
+}
+
+int checkOutput(int exitCode) {
+  const bool wasWritten = std::ferror(stdout) == 0;
+  const int reason = std::fflush(stdout) == 0 ? 0 : errno;
+  // A command that failed has said why, which may be this.
+  if ((wasWritten && reason == 0) || exitCode == exitRefused) return exitCode;
+  return reportError(outputError(reason));
+}
+
+std::optional<int> parse(CLI::App& app, int argc, char** argv,
+                         const std::map<std::string, std::string>& window) {
   addHelp(app);
   app.add_option_function<std::string>(
          "--completion",
@@ -26,6 +45,26 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
          },
          "Print a script for bash or zsh that completes commands and options")
       ->type_name("bash|zsh")
+      ->group("");
+  app.add_option_function<std::string>(
+         "--option-list",
+         [&](const std::string& name) {
+           const CLI::App* listed = name == app.get_name() ? &app : nullptr;
+           for (const CLI::App* command : app.get_subcommands({})) {
+             if (command->get_name() == name) listed = command;
+           }
+           if (listed == nullptr) throw CLI::ValidationError("--option-list must be a command");
+           std::string lines;
+           for (const CLI::Option* option : listed->get_options()) {
+             if (option->get_lnames().empty()) continue;
+             const auto text = window.find(option->get_name());
+             lines += (lines.empty() ? "" : "\n") + option->get_name() +
+                      (option->get_items_expected_max() == 0 ? " flag " : " value ") +
+                      (text == window.end() ? "" : text->second);
+           }
+           throw CLI::CallForVersion(lines, 0);
+         },
+         "Print the options of a command for scripts")
       ->group("");
   try {
     app.parse(argc, argv);

@@ -1,54 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <app/option_arguments.h>
 #include <app/robots_options.h>
 #include <app/usage.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include <base/lined_json.h>
 
 namespace pitchboard::shared {
 
+namespace {
+
+template <auto member>
+constexpr OptionAccess<RobotsOptions> robotsMember = optionMember<RobotsOptions, member>;
+
+std::vector<OptionChoice> cognitionChoices() {
+  return {{std::string("inline"), {}}, {std::string("separate"), {}}, {std::string("none"), {}}};
+}
+std::vector<OptionChoice> paceChoices() {
+  return {{std::string("lock-step"), {}}, {std::string("free"), {}}};
+}
+
+// clang-format off
+constexpr Option<RobotsOptions> robotsTable[] = {
+    {{.name = "cognition", .form = "inline|separate|none",
+      .text = "Who decides: processes inside this program (inline), separate processes on System V "
+              "blackboards (separate), or only processes that you start (none)",
+      .choices = cognitionChoices}, robotsMember<&RobotsOptions::cognition>},
+    {{.name = "speed", .form = "X|max",
+      .text = "Times real time, 0.01 to 1000, or max; default: 1, in pitchboard-cli max unless "
+              "something needs real time"},
+      robotsMember<&RobotsOptions::speed>},
+    {{.name = "match", .form = "N",
+      .text = "Number of the match on this computer; sets blackboard keys and ports. Default: the "
+              "next free one (0 uses the published keys and ports)",
+      .min = 0, .max = link::MatchNumber::most}, robotsMember<&RobotsOptions::match>},
+    {{.name = "key-base", .form = "B",
+      .text = "Blackboard keys are this + 100 x robot number; default: the match's",
+      .min = 0, .max = 2'000'000'000}, robotsMember<&RobotsOptions::keyBase>},
+    {{.name = "pace", .form = "lock-step|free",
+      .text = "How separate reference processes run at speed 1: the match waits for them in every "
+              "tick (lock-step), or they run freely, as on the field",
+      .choices = paceChoices}, robotsMember<&RobotsOptions::pace>},
+    {{.name = "runtime", .form = "[WHO=]PROFILE",
+      .text = "Programs of the robots: program=FILE instead of decision, or a runtime profile "
+              "(reference, own, published-tree:folder=..., a file); B1= or blue= in front: of one "
+              "robot or team"}, robotsMember<&RobotsOptions::runtimes>},
+};
+// clang-format on
+
+}  // namespace
+
 void addRobotsOptions(CLI::App& command, RobotsOptions& options) {
-  command
-      .add_option(
-          "--match", options.match,
-          "Number of the match on this computer; sets blackboard keys and ports. Default: the "
-          "next free one (0 uses the published keys and ports)")
-      ->type_name("N")
-      ->check(CLI::Range(0, link::MatchNumber::most));
-  command
-      .add_option("--key-base", options.keyBase,
-                  "Blackboard keys are this + 100 x robot number; default: the match's")
-      ->type_name("B")
-      ->check(CLI::Range(0, 2'000'000'000));
-  command
-      .add_option(
-          "--pace", options.pace,
-          "How separate reference processes run at speed 1: the match waits for them in every "
-          "tick (lock-step), or they run freely, as on the field")
-      ->type_name("lock-step|free")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"lock-step", "free"}));
-  command
-      .add_option(
-          "--runtime", options.runtimes,
-          "Programs of the robots: a runtime profile (reference, own, "
-          "published-tree:folder=..., a file) or program=FILE instead of decision; put blue= or "
-          "B1= in front for one team or robot; may be repeated")
-      ->type_name("[WHO=]PROFILE");
-  addGroup(command, "Robot processes", {"--match", "--key-base", "--pace", "--runtime"});
+  addOptions(command, robotsTable, options);
+  // The name up to version 0.14.
+  command.get_option("--cognition")->transform([](const std::string& text) {
+    return text == "external" ? "separate" : text;
+  });
+  addGroup(command, "Robot processes", {"--match", "--key-base", "--pace"});
+}
+
+link::Cognition cognitionOf(const RobotsOptions& options) {
+  return options.cognition == "inline" ? link::Cognition::Inline
+         : options.cognition == "none" ? link::Cognition::None
+                                       : link::Cognition::Separate;
 }
 
 Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions& options) {
   for (const std::string& text : options.runtimes) {
     const std::size_t equals = text.find('=');
-    const std::string who = equals == std::string::npos ? std::string() : text.substr(0, equals);
-    const auto team = std::ranges::find(teamColors, who, &TeamColorInfo::name);
-    const auto robot = std::ranges::find_if(
-        scenario.robots, [&who](const auto& one) { return one.identity.name() == who; });
+    std::string who = equals == std::string::npos ? std::string() : text.substr(0, equals);
     const bool isShirt =
-        who.size() >= 2 && who.size() <= 3 && who[0] >= 'A' && who[0] <= 'Z' &&
+        who.size() >= 2 && who.size() <= 3 && std::isalpha(static_cast<unsigned char>(who[0])) &&
         std::all_of(who.begin() + 1, who.end(), [](char c) { return c >= '0' && c <= '9'; });
+    if (isShirt) who[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(who[0])));
+    const auto team = std::ranges::find(teamColors, who, &TeamColorInfo::name);
+    const auto robot = scenario.robotNamed(who);
     const bool named = team != teamColors.end() || isShirt;
     const auto choice = link::runtimeChoiceFromText(named ? text.substr(equals + 1) : text);
     if (!choice) return failure(choice.error().code, choice.error().message, "--runtime");
@@ -57,11 +85,10 @@ Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions
     }
     if (team != teamColors.end()) {
       scenario.runtimes[team->color] = *choice;
-    } else if (robot != scenario.robots.end()) {
-      robot->runtime = *choice;
+    } else if (robot) {
+      scenario.robots[*robot].runtime = *choice;
     } else if (isShirt) {
-      return failure(ErrorCode::NotFound, "there is no robot " + who + " in this scenario",
-                     "--runtime");
+      return failure(robot.error().code, robot.error().message, "--runtime");
     } else {
       for (const TeamColorInfo& color : teamColors) scenario.runtimes[color.color] = *choice;
     }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <app/option_arguments.h>
 #include <app/scenario_options.h>
 #include <app/usage.h>
+#include <base/lined_json.h>
 #include <base/try.h>
 #include <robotlink/models/robot_models.h>
 
@@ -20,7 +22,15 @@ Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
     only = &team;
     name = text.substr(start.size());
   }
-  const auto model = TRY(link::loadRobotModel(name));
+  const std::size_t equals = text.find('=');
+  const auto loaded = link::loadRobotModel(name);
+  if (!loaded && !only && equals != std::string::npos) {
+    std::vector<std::string_view> teams;
+    for (const TeamColorInfo& team : teamColors) teams.push_back(team.name);
+    return failure(ErrorCode::NotFound, unknownName("team", text.substr(0, equals), teams),
+                   "--robot-model " + text);
+  }
+  const auto model = TRY(loaded);
   bool any = false;
   for (link::ScenarioRobot& robot : scenario.robots) {
     if (only && robot.identity.team != only->color) continue;
@@ -35,38 +45,37 @@ Result<void> chooseModel(link::Scenario& scenario, const std::string& text) {
   return {};
 }
 
+template <auto member>
+constexpr OptionAccess<ScenarioOptions> scenarioMember = optionMember<ScenarioOptions, member>;
+
+// clang-format off
+constexpr Option<ScenarioOptions> scenarioTable[] = {
+    {{.name = "scenario", .form = "NAME|FILE", .text = "Built-in scenario or a JSON file"},
+      scenarioMember<&ScenarioOptions::scenario>},
+    {{.name = "seed", .form = "N", .text = "Seed of the noise; default: the scenario's"},
+      scenarioMember<&ScenarioOptions::seed>},
+    {{.name = "noise", .form = "PRESET",
+      .text = "Noise: none, published, paper, realistic, or robot (that of each robot's model)"},
+      scenarioMember<&ScenarioOptions::noise>},
+    {{.name = "physics", .form = "MODEL", .text = "Physics engine: rigid-body or published"},
+      scenarioMember<&ScenarioOptions::physics>},
+    {{.name = "robot-model", .form = "[TEAM=]NAME|FILE",
+      .text = "Model of all robots, or with blue= or red= of one team: published, darwin-op, "
+              "kid-size, adult-size or a file"}, scenarioMember<&ScenarioOptions::robotModels>},
+    {{.name = "advisor", .form = "TEAM",
+      .text = "Let the keeper of this team learn where the opponents aim (docs/advisor.md)"},
+      scenarioMember<&ScenarioOptions::advised>},
+};
+// clang-format on
+
 }  // namespace
 
-std::string refuseNegative(const std::string& text) {
-  return text.starts_with('-') ? "must be 0 or more, not " + text : std::string();
-}
-
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options) {
-  command.add_option("--scenario", options.scenario, "Built-in scenario or a JSON file")
-      ->type_name("NAME|FILE")
-      ->capture_default_str();
-  command.add_option("--seed", options.seed, "Seed of the noise; default: the scenario's")
-      ->check(refuseNegative)
-      ->type_name("N");
-  command
-      .add_option("--noise", options.noise,
-                  "Noise: none, published, paper, realistic, or robot (that of each robot's model)")
-      ->type_name("PRESET");
-  command.add_option("--physics", options.physics, "Physics engine: rigid-body or published")
-      ->type_name("MODEL");
-  command
-      .add_option("--robot-model", options.robotModels,
-                  "Model of all robots, or with blue= or red= of one team: published, darwin-op, "
-                  "kid-size, adult-size or a file; may be repeated")
-      ->type_name("[TEAM=]NAME|FILE");
-  addGroup(command, "Models", {"--physics", "--robot-model"});
+  addOptions(command, scenarioTable, options);
+  addGroup(command, "Models", {"--physics", "--advisor"});
   std::vector<std::string> colours;
   for (const TeamColorInfo& team : teamColors) colours.emplace_back(team.name);
-  command
-      .add_option("--advisor", options.advised,
-                  "Let this team think ahead (docs/advisor.md); may be repeated")
-      ->type_name("TEAM")
-      ->check(CLI::IsMember(colours));
+  command.get_option("--advisor")->check(CLI::IsMember(colours));
 }
 
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options) {

@@ -5,6 +5,7 @@
 #include <regex>
 #include <vector>
 
+#include <base/documents.h>
 #include <base/lined_json.h>
 #include <base/nearest_name.h>
 
@@ -148,8 +149,10 @@ class Help : public CLI::FormatterBase {
 /// The library's list of what was not expected: unknown options, or too many arguments.
 std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& arguments) {
   const CLI::App& command = chosenIn(app);
+  const auto commands = commandsOf(command);
+  const bool isCommand = !commands.empty() && !arguments.front().starts_with("-");
   for (const std::string& token : arguments) {
-    if (!token.starts_with("-") || token.size() < 2) continue;
+    if (isCommand || !token.starts_with("-") || token.size() < 2) continue;
     const std::string name = token.substr(0, token.find('='));
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
@@ -161,8 +164,11 @@ std::string unexpectedText(const CLI::App& app, const std::vector<std::string>& 
     return "unknown option \"" + name + '"' +
            (near.empty() ? "" : "; did you mean \"" + std::string(near) + "\"?");
   }
-  const auto commands = commandsOf(command);
-  if (commands.empty()) return "unexpected argument \"" + arguments.front() + '"';
+  if (commands.empty()) {
+    const bool hasScenario = command.get_option_no_throw("--scenario") != nullptr;
+    return "unexpected argument \"" + arguments.front() + '"' +
+           (hasScenario ? "; a scenario is chosen with --scenario " + arguments.front() : "");
+  }
   std::vector<std::string> names;
   for (const CLI::App* one : commands) names.push_back(one->get_name());
   return unknownName("command", arguments.front(),
@@ -249,6 +255,8 @@ std::string helpText(const CLI::App& app, CLI::AppFormatMode mode) {
   if (!commands.empty()) {
     out += "\nRun \"" + fullName(app) + " COMMAND --help\" for the options of a command.\n";
   }
+  const std::string page = app.get_parent() == nullptr ? documentationPath() : std::string();
+  if (!page.empty()) out += "\nDocumentation: " + page + '\n';
   return out;
 }
 

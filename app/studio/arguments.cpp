@@ -4,16 +4,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <vector>
 
 #include <app/command_line.h>
+#include <app/option_arguments.h>
 #include <app/usage.h>
-#include <base/time_text.h>
 #include <base/try.h>
-#include <robotlink/live/live_teams.h>
-#include <robotlink/match/match_runner.h>
 #include <telemetry/session/session_time.h>
 
 namespace pitchboard::studio {
@@ -21,109 +18,105 @@ namespace {
 
 constexpr int maxPixels = 16384;
 
-void addOptions(CLI::App& app, Arguments& a) {
+constexpr const char* leaveOut = "leave it out, or set QT_QPA_PLATFORM=offscreen";
+
+template <auto member>
+constexpr OptionAccess<Arguments> argument = optionMember<Arguments, member>;
+
+std::vector<OptionChoice> themeChoices() {
+  return {{std::string("light"), {}}, {std::string("dark"), {}}};
+}
+
+// clang-format off
+constexpr Option<Arguments> argumentTable[] = {
+    {{.name = "theme", .form = "light|dark", .text = "Colour theme for this run",
+      .choices = themeChoices, .instead = leaveOut}, argument<&Arguments::theme>},
+    {{.name = "paused", .text = "Start paused", .instead = leaveOut}, argument<&Arguments::paused>},
+    {{.name = "play-to", .form = "TICK",
+      .text = "Play at full speed up to this tick, then pause: the same moment every time",
+      .instead = leaveOut}, argument<&Arguments::playTo>},
+    {{.name = "size", .form = "WxH", .text = "Size of the window or the picture",
+      .instead = leaveOut}, argument<&Arguments::size>},
+    {{.name = "settings", .form = "FILE",
+      .text = "File for layout and preferences instead of the user's own", .instead = leaveOut},
+      argument<&Arguments::settings>},
+    {{.name = "session", .form = "FILE.mcap", .text = "Open this recording in Replay"},
+      argument<&Arguments::session>},
+    {{.name = "at", .form = "T", .text = "Start Replay at this time: 78.7, 1:18.7 or 0:01:18.7",
+      .instead = leaveOut}, argument<&Arguments::at>},
+    {{.name = "new-window", .text = "Open the recording in a new studio even if one is running",
+      .instead = leaveOut}, argument<&Arguments::newWindow>},
+    {{.name = "record", .form = "FILE.mcap",
+      .text = "Record a match or live robots from the start into this new file; an existing file "
+              "is kept, and the new one gets a number",
+      .instead = "pitchboard-cli record records without one"}, argument<&Arguments::record>},
+    {{.name = "live", .text = "Start in Live; no match is simulated unless --scenario is given"},
+      argument<&Arguments::live>},
+    {{.name = "overlay", .text = "Overlay live robots on simulated ones"},
+      argument<&Arguments::overlay>},
+    {{.name = "screenshot-to", .form = "FILE.png",
+      .text = "Save a picture of the window, then exit"}, argument<&Arguments::screenshotFile>},
+    {{.name = "after", .form = "SECONDS", .text = "When to take the picture",
+      .min = 0, .max = 86400}, argument<&Arguments::after>},
+    {{.name = "render-scenario", .form = "NAME|FILE",
+      .text = "Draw a scenario's start to --picture, without a window"},
+      argument<&Arguments::renderScenario>},
+    {{.name = "paint", .form = "FILE.mcap",
+      .text = "Paint the field at --from of this session, or a video from --from until --until, "
+              "to --picture, without a window"}, argument<&Arguments::paint>},
+    {{.name = "picture", .form = "FILE",
+      .text = "Where --render-scenario and --paint write: .png or .svg; --paint: also .mp4 or "
+              ".webm"}, argument<&Arguments::picture>},
+    {{.name = "from", .form = "T", .text = "Time in the recording: 78.7, 1:18.7 or 0:01:18.7"},
+      argument<&Arguments::from>},
+    {{.name = "until", .form = "T", .text = "End of a video; same format as --from"},
+      argument<&Arguments::until>},
+    {{.name = "rate", .form = "N", .text = "Frames per second of a video"},
+      argument<&Arguments::rate>},
+    {{.name = "only", .form = "NAMES", .text = "Paint only these robots, e.g. B1,R2"},
+      argument<&Arguments::paintRobots>},
+};
+// clang-format on
+
+/// Returns the options that need a window.
+shared::WindowOptions addOptions(CLI::App& app, Arguments& a) {
   a.match.scenario = "kick-off";  // robots move from the beginning
+  a.processes.cognition = "separate";
+  a.processes.speed = "1";
   shared::addScenarioOptions(app, a.match);
-  app.add_option("--cognition", a.cognition,
-                 "Where the robots' processes run: separate processes on System V blackboards "
-                 "(separate), inside the studio (inline), or only your own programs (none)")
-      ->type_name("separate|inline|none")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"separate", "inline", "none"}))
-      // The name up to version 0.14.
-      ->transform([](const std::string& text) { return text == "external" ? "separate" : text; });
-  app.add_option("--speed", a.speed, "Speed, 0.01 to 1000 times real time, or max")
-      ->type_name("X|max")
-      ->capture_default_str();
   shared::addRobotsOptions(app, a.processes);
-  app.add_option("--theme", a.theme, "Colour theme for this run")
-      ->type_name("light|dark")
-      ->check(CLI::IsMember({"light", "dark"}));
-  app.add_flag("--paused", a.paused, "Start paused");
-  app.add_option("--play-to", a.playTo,
-                 "Play at full speed up to this tick, then pause: the same moment every time")
-      ->type_name("TICK");
-  app.add_option("--size", a.size, "Size of the window or the picture")->type_name("WxH");
-  app.add_option("--settings", a.settings,
-                 "File for layout and preferences instead of the user's own")
-      ->type_name("FILE");
-  app.add_option("--session", a.session, "Open this recording in Replay")->type_name("FILE.mcap");
-  app.add_option("--at", a.at, "Start Replay at this time: 78.7, 1:18.7 or 0:01:18.7")
-      ->type_name("T");
+  shared::addOptions(app, argumentTable, a);
   app.add_option("file", a.file,
                  "A recording to replay, or a scenario (FILE.json) to play. A recording alone is "
                  "opened in the running studio, if there is one")
       ->type_name("FILE");
-  app.add_flag("--new-window")
-      ->description("Open the recording in a new studio even if one is running");
-  app.add_option("--record", a.record,
-                 "Record a match or live robots from the start into this new file; an existing "
-                 "file is kept, and the new one gets a number")
-      ->type_name("FILE.mcap");
-  app.add_flag("--live", a.live, "Start in Live; no match is simulated unless --scenario is given");
-  app.add_flag("--overlay", a.overlay, "Overlay live robots on simulated ones");
-  app.add_option("--bind", a.bind, "Live: address to receive at")->type_name("ADDRESS");
-  app.add_option("--port-base", a.portBase, "Live: robot n sends to port base + n")->type_name("P");
-  app.add_option("--variables-port-base", a.variablesPortBase,
-                 "Live: robot n sends variables to this port base + n; 0: off")
-      ->type_name("P");
-  app.add_option("--robots", a.robots, "Live: number of ports after the base")
-      ->type_name("N")
-      ->check(CLI::Range(1, 64));
-  app.add_option("--gamecontroller-port", a.refereePort, "Live: port of the referee's packets")
-      ->type_name("P");
-  app.add_option("--our-team", a.ourTeam,
-                 "Live: our team, by the referee's number or its colour, such as blue or red")
-      ->type_name("N|COLOUR");
-  app.add_option("--profile", a.profile,
-                 "Live: message profile: a file, or a name that docs/live.md lists")
-      ->type_name("FILE|NAME");
-  app.add_option("--team", a.teams, "Live: team setup as JSON; may be repeated")->type_name("FILE");
-  app.add_option("--attach", a.attached,
-                 "Live: attach the blackboard with this System V key, read-only; may be repeated")
-      ->type_name("KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R][,team=COLOUR]");
-  CLI::Option* shot =
-      app.add_option("--screenshot-to", a.screenshotFile, "Save a picture of the window, then exit")
-          ->type_name("FILE.png");
-  app.add_option("--after", a.after, "When to take the picture")
-      ->type_name("SECONDS")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 86400.0))
-      ->needs(shot);
-  CLI::Option* render = app.add_option("--render-scenario", a.renderScenario,
-                                       "Draw a scenario's start to --picture, without a window")
-                            ->type_name("NAME|FILE");
-  CLI::Option* paint =
-      app.add_option("--paint", a.paint,
-                     "Paint the field at --from of this session, or a video from --from until "
-                     "--until, to --picture, without a window")
-          ->type_name("FILE.mcap")
-          ->excludes(render);
-  app.add_option("--picture", a.picture,
-                 "Where --render-scenario and --paint write: .png or .svg; --paint: also .mp4 or "
-                 ".webm")
-      ->type_name("FILE");
-  app.add_option("--from", a.from, std::string("Time in the recording: ") + timeForms)
-      ->type_name("T")
-      ->needs(paint);
-  app.add_option("--until", a.until, "End of a video; same format as --from")
-      ->type_name("T")
-      ->needs(paint);
-  app.add_option("--rate", a.rate, "Frames per second of a video")
-      ->type_name("N")
-      ->capture_default_str()
-      ->needs(paint);
-  app.add_option("--only", a.paintRobots, "Paint only these robots, e.g. B1,R2")
-      ->type_name("NAMES")
-      ->delimiter(',')
-      ->needs(paint);
-  shared::addGroup(app, "Live",
-                   {"--bind", "--port-base", "--variables-port-base", "--robots",
-                    "--gamecontroller-port", "--our-team", "--profile", "--team", "--attach"});
+  shared::WindowOptions window;
+  for (const Option<Arguments>& option : argumentTable) {
+    if (option.info.instead == nullptr) continue;
+    const std::string name = "--" + std::string(option.info.name);
+    window[name] = name + " needs a window; " + option.info.instead;
+  }
+  const auto before = app.get_options();
+  shared::addOptions(app, link::liveOptionTable(), link::LiveOptions(), a.liveOptions);
+  for (CLI::Option* option : app.get_options()) {
+    const bool isOfLive = std::ranges::find(before, option) == before.end();
+    if (isOfLive) option->group("Live");
+    if (isOfLive || option->check_name("--live") || option->check_name("--overlay")) {
+      window[option->get_name()] =
+          "Live needs a window; pitchboard-cli listen prints what robots and referee send";
+    }
+  }
+  app.get_option("--after")->needs("--screenshot-to");
+  app.get_option("--paint")->excludes("--render-scenario");
+  for (const char* ofAVideo : {"--from", "--until", "--rate", "--only"}) {
+    app.get_option(ofAVideo)->needs("--paint");
+  }
+  app.get_option("--only")->delimiter(',');
   shared::addGroup(app, "Pictures and videos",
                    {"--screenshot-to", "--after", "--play-to", "--size", "--render-scenario",
                     "--paint", "--picture", "--from", "--until", "--rate", "--only"});
   shared::addGroup(app, "Window", {"--theme", "--settings", "--new-window"});
+  return window;
 }
 
 /// A file named without an option is a scenario when it ends in .json, else a session. False when
@@ -154,8 +147,8 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments) {
       "          pitchboard --live --our-team 12 --record semifinal.mcap"};
   app.name("pitchboard");
   app.set_version_flag("--version", PITCHBOARD_VERSION, "Print the version");
-  addOptions(app, arguments);
-  if (const auto ended = shared::parse(app, argc, argv)) return ended;
+  const shared::WindowOptions window = addOptions(app, arguments);
+  if (const auto ended = shared::parse(app, argc, argv, window)) return ended;
   if (!takeFile(app, arguments)) {
     return shared::reportError({ErrorCode::InvalidArgument,
                                 "two files to open are given, one by its option and " +
@@ -237,45 +230,9 @@ Result<link::Scenario> scenarioOf(const Arguments& arguments) {
 }
 
 Result<link::LiveOptions> liveOptionsOf(const Arguments& arguments, link::LiveOptions saved) {
-  if (!arguments.bind.empty()) {
-    const auto address = telemetry::parseAddress(arguments.bind);
-    if (!address) return tl::unexpected<Error>(address.error());
-    saved.bind = *address;
-  }
-  saved.portBase = arguments.portBase.value_or(saved.portBase);
-  saved.variablesPortBase = arguments.variablesPortBase.value_or(saved.variablesPortBase);
-  saved.robots = arguments.robots.value_or(saved.robots);
-  saved.refereePort = arguments.refereePort.value_or(saved.refereePort);
-  if (!arguments.ourTeam.empty()) {
-    if (const auto ours = link::chooseOurTeam(saved, arguments.ourTeam); !ours) {
-      return tl::unexpected<Error>(ours.error());
-    }
-  }
-  if (!arguments.profile.empty()) {
-    auto profile = telemetry::loadProfile(arguments.profile);
-    if (!profile) return tl::unexpected<Error>(profile.error());
-    saved.profile = std::move(*profile);
-  }
-  for (const std::string& text : arguments.attached) {
-    auto board = link::parseAttachedBoard(text);
-    if (!board) return tl::unexpected<Error>(board.error());
-    std::erase_if(saved.boards, [&board](const auto& known) { return known.key == board->key; });
-    saved.boards.push_back(std::move(*board));
-  }
-  for (std::size_t i = 0; i < arguments.teams.size(); ++i) {
-    auto team = telemetry::loadTeamSetup(arguments.teams[i]);
-    if (!team) return tl::unexpected<Error>(team.error());
-    if (i == 0) saved.team.teams.clear();  // in place of those that are saved
-    saved.team.teams.push_back(std::move(*team));
-  }
-  if (const auto good = link::validate(saved); !good) return tl::unexpected<Error>(good.error());
+  TRY(setOptions(saved, link::liveOptionTable(), arguments.liveOptions));
+  TRY(link::validate(saved));
   return saved;
-}
-
-link::Cognition cognitionOf(const Arguments& arguments) {
-  if (arguments.cognition == "inline") return link::Cognition::Inline;
-  if (arguments.cognition == "none") return link::Cognition::None;
-  return link::Cognition::Separate;
 }
 
 }  // namespace pitchboard::studio

@@ -10,7 +10,7 @@
 
 #include <app/robots_options.h>
 #include <app/scenario_options.h>
-#include <robotlink/live/live_watch.h>
+#include <robotlink/live/live_options.h>
 #include <robotlink/match/simulated_match.h>
 #include <telemetry/session/session_reader.h>
 
@@ -23,8 +23,6 @@ struct WindowSize {
 
 struct Arguments {
   shared::ScenarioOptions match;
-  std::string cognition = "separate";
-  std::string speed = "1";
   shared::RobotsOptions processes;
   std::string theme;
   bool paused = false;
@@ -39,21 +37,16 @@ struct Arguments {
   double rate = 10.0;                    ///< pictures per second of a video
   std::vector<std::string> paintRobots;  ///< only these; empty: all
   std::string settings;
-  std::string file;          ///< argument without an option: a session or a scenario to open
-  std::string session;       ///< a recorded session to open in Replay
-  std::string at;            ///< where Replay starts; empty: at the beginning
+  std::string file;     ///< argument without an option: a session or a scenario to open
+  std::string session;  ///< a recorded session to open in Replay
+  std::string at;       ///< where Replay starts; empty: at the beginning
+  bool newWindow = false;
   bool onlySession = false;  ///< no other option was given, so a running studio can open it
   std::string record;        ///< session file to record into from the first moment; empty: none
   bool live = false;
   bool overlay = false;
   bool scenarioGiven = false;  ///< if false, Live starts without a simulated match
-  // Settings of Live that replace the saved ones; empty: as saved.
-  std::string bind;
-  std::optional<int> portBase, variablesPortBase, robots, refereePort;
-  std::string ourTeam;
-  std::string profile;
-  std::vector<std::string> teams;     ///< team setups
-  std::vector<std::string> attached;  ///< blackboards: KEY[,catalog=FILE][,size=BYTES][,robot=N]
+  OptionValues liveOptions;    ///< those of Live that replace the saved ones, by name
 };
 
 /// Parses the command line into `arguments`. Returns an exit code if the program has to end now
@@ -64,7 +57,6 @@ std::optional<int> parseArguments(int argc, char** argv, Arguments& arguments);
 Result<std::optional<WindowSize>> sizeOf(const Arguments& arguments);
 /// Returns the scenario with the seed, noise and physics of the command line.
 Result<link::Scenario> scenarioOf(const Arguments& arguments);
-link::Cognition cognitionOf(const Arguments& arguments);
 /// Returns the second of the session at which Replay starts; empty if none was given. Reads the
 /// session.
 Result<std::optional<double>> startOf(const Arguments& arguments);

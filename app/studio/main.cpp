@@ -11,23 +11,124 @@
 #include <cstdio>
 
 #include <app/command_line.h>
+#include <base/file_target.h>
 #include <robotlink/processes/team_program.h>
+#include <robotlink/session/recorded_frame.h>
 #include <ui/base/save_file.h>
 #include <ui/base/theme.h>
+#include <ui/field/field_view.h>
+#include <ui/session/video_export.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
 #include "arguments.h"
 #include "end_signals.h"
-#include "paint.h"
 #include "running_studio.h"
 
 namespace pitchboard::studio {
 namespace {
+
+int writePicture(const ui::FieldView& field, const Arguments& arguments, QSize within,
+                 IfExists ifExists) {
+  const QByteArray bytes =
+      field.pictureFile(within, QFileInfo(QString::fromStdString(arguments.picture)).suffix());
+  if (bytes.isEmpty()) {
+    return shared::reportError({ErrorCode::InvalidArgument,
+                                "the name of a picture must end in .png or .svg",
+                                arguments.picture});
+  }
+  const auto written =
+      writeFile(arguments.picture, {bytes.constData(), static_cast<std::size_t>(bytes.size())},
+                ifExists, arguments.paint);
+  return written ? 0 : shared::reportError(written.error());
+}
+
+int writeVideo(const ui::FieldView& field, const Arguments& arguments, QSize within,
+               telemetry::TimeRange range) {
+  ui::VideoExport video(field.framePainter(), nullptr);
+  EndSignals signals_;
+  int exitCode = 0;
+  const auto end = [&](const QString& sentence) {
+    exitCode = shared::reportError({ErrorCode::SystemError, sentence.toStdString(), {}});
+    QApplication::exit();
+  };
+  QObject::connect(&video, &ui::VideoExport::progressed, &video, [](double part) {
+    std::printf("%.4f\n", part);
+    std::fflush(stdout);
+  });
+  QObject::connect(&video, &ui::VideoExport::finished, &video, [] { QApplication::exit(); });
+  QObject::connect(&video, &ui::VideoExport::failed, &video, end);
+  QObject::connect(&signals_, &EndSignals::received, &video, [&] {
+    video.cancel();
+    end(QStringLiteral("Export cancelled."));
+  });
+  ui::VideoOptions options;
+  options.path = QString::fromStdString(arguments.picture);
+  options.size = field.pictureSize(within);
+  options.framesPerSecond = arguments.rate;
+  if (const auto started = video.start(QString::fromStdString(arguments.paint), range,
+                                       arguments.paintRobots, options);
+      !started) {
+    return shared::reportError(started.error());
+  }
+  QApplication::exec();
+  return exitCode;
+}
+
+/// Paints a scenario's start into arguments.picture; returns the exit code.
+int paintScenario(const Arguments& arguments, const link::Scenario& scenario, WindowSize within) {
+  link::MatchOptions options;
+  options.cognition = link::Cognition::Inline;
+  ui::MatchController controller(options);
+  bool failed = false;
+  QObject::connect(&controller, &ui::MatchController::errorOccurred, &controller,
+                   [&failed](const QString& sentence) {
+                     failed = true;
+                     std::fprintf(stderr, "error: %s\n", qPrintable(sentence));
+                   });
+  ui::FieldView field(&controller);
+  controller.open(scenario, true);
+  constexpr int maxWait = 10000;
+  QTimer limit;
+  limit.setSingleShot(true);
+  limit.start(maxWait);
+  while (!failed && !controller.frame() && limit.isActive()) {
+    QApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  }
+  if (failed || !controller.frame()) return 2;
+  return writePicture(field, arguments, {within.width, within.height}, IfExists::Replace);
+}
+
+/// Paints a moment of a session, or a video of part of it. Prints the progress of a video to
+/// stdout, as lines with a number from 0 to 1. Returns the exit code.
+int paintSession(const Arguments& arguments, WindowSize within) {
+  const auto session = telemetry::SessionReader::open(arguments.paint);
+  if (!session) return shared::reportError(session.error());
+  const auto all = session->range();
+  if (!all) {
+    return shared::reportError({ErrorCode::NotFound, "the recording is empty", arguments.paint});
+  }
+  const auto from = timeIn(*session, arguments.from, "--from");
+  if (!from) return shared::reportError(from.error());
+  const auto until = timeIn(*session, arguments.until, "--until");
+  if (!until) return shared::reportError(until.error());
+  const telemetry::TimeRange range{from->value_or(all->begin), until->value_or(all->end)};
+  const auto robots = link::RobotChoice::of(*session, arguments.paintRobots);
+  if (!robots) return shared::reportError(robots.error());
+  link::RecordedFrames frames(link::backdropOf(*session), *robots);
+  const auto frame = std::make_shared<link::MatchFrame>(frames.frameAt(*session, range.begin));
+  ui::FieldView field(static_cast<ui::FrameSource*>(nullptr), nullptr);
+  field.showFrame(frame);
+  const QSize size(within.width, within.height);
+  const QString suffix = QFileInfo(QString::fromStdString(arguments.picture)).suffix().toLower();
+  const bool video = suffix == QLatin1String("mp4") || suffix == QLatin1String("webm");
+  return video ? writeVideo(field, arguments, size, range)
+               : writePicture(field, arguments, size, IfExists::Refuse);
+}
 
 constexpr WindowSize pictureSize{1280, 960};  // of which the field takes its shape
 
@@ -58,7 +159,7 @@ ui::ThemeChoice themeOf(const Arguments& arguments, const QSettings& settings) {
 
 link::MatchOptions matchOptions(const Arguments& arguments) {
   link::MatchOptions options;
-  options.cognition = cognitionOf(arguments);
+  options.cognition = shared::cognitionOf(arguments.processes);
   shared::apply(arguments.processes, options);
   options.cognitionDebug = true;
   options.robotProgram = link::besideTeamProgram("pitchboard-robot");
@@ -99,9 +200,10 @@ int showWindow(QApplication& application, const Arguments& arguments,
   ui::MatchController controller(matchOptions(arguments));
   std::optional<ui::MainWindow> made(std::in_place, &controller, &settings);
   ui::MainWindow& window = *made;
-  QObject::connect(&signals_, &EndSignals::received, &window, &QWidget::close);
+  QObject::connect(&signals_, &EndSignals::received, &window, &ui::MainWindow::closeNow);
   if (size) window.resize(size->width, size->height);
   window.offerToRemoveOrphans();
+  window.offerLostRecordings();
   controller.setSpeed(speed);
   const auto live = liveOptionsOf(arguments, window.live()->options());
   if (!live) return shared::reportError(live.error());
@@ -109,7 +211,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
   if (start) {
     QObject::connect(
         window.replay(), &ui::ReplayController::opened, &window,
-        [&window, start] { window.timeline()->seek(*start); }, Qt::SingleShotConnection);
+        [&window, start] { window.shown()->seek(*start); }, Qt::SingleShotConnection);
   }
   if (!arguments.session.empty()) window.openSession(QString::fromStdString(arguments.session));
   const bool recordsMatch = !arguments.record.empty() && !arguments.live;
@@ -161,7 +263,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
     const int wait = static_cast<int>(std::lround(arguments.after * 1000));
     QTimer::singleShot(wait, &window, [&] {
       exitCode = save(window.grab(), arguments.screenshotFile) ? 0 : 2;
-      window.close();
+      window.closeNow();
     });
   }
   const int ended = application.exec();
@@ -173,7 +275,7 @@ int showWindow(QApplication& application, const Arguments& arguments,
 int run(int argc, char** argv) {
   Arguments arguments;
   if (const auto exitCode = parseArguments(argc, argv, arguments)) return *exitCode;
-  const auto speed = shared::speedFrom(arguments.speed);
+  const auto speed = shared::speedFrom(arguments.processes.speed);
   if (!speed) return shared::reportError(speed.error());
   const auto size = sizeOf(arguments);
   if (!size) return shared::reportError(size.error());
@@ -216,6 +318,7 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+
 }  // namespace pitchboard::studio
 
 int main(int argc, char** argv) {

@@ -14,10 +14,10 @@
 namespace pitchboard::studio {
 namespace {
 
-constexpr int longestAnswer = 5000;   // ms; a studio that is busy opening a window needs a moment
+constexpr int maxAnswer = 5000;       // ms; a studio that is busy opening a window needs a moment
 constexpr int tryAgain = 1000;        // ms
 constexpr quint32 word = 0x50624f31;  // begins each message
-constexpr qint64 longestMessage = 1 << 16;
+constexpr qint64 maxMessageLength = 1 << 16;
 
 }  // namespace
 
@@ -42,12 +42,12 @@ bool handOver(const QString& socket, const QString& file) {
   if (socket.isEmpty()) return false;
   QLocalSocket studio;
   studio.connectToServer(socket);
-  if (!studio.waitForConnected(longestAnswer)) return false;
+  if (!studio.waitForConnected(maxAnswer)) return false;
   QDataStream stream(&studio);
   stream.setVersion(QDataStream::Qt_6_4);
   stream << word << QFileInfo(file).absoluteFilePath();
   while (studio.bytesAvailable() == 0) {
-    if (!studio.waitForReadyRead(longestAnswer)) return false;
+    if (!studio.waitForReadyRead(maxAnswer)) return false;
   }
   return studio.read(1) == "1";
 }
@@ -94,7 +94,7 @@ void RunningStudio::take(QLocalSocket* caller) {
   QString file;
   stream >> begin >> file;
   if (!stream.commitTransaction()) {
-    if (caller->bytesAvailable() > longestMessage ||
+    if (caller->bytesAvailable() > maxMessageLength ||
         stream.status() == QDataStream::ReadCorruptData)
       caller->abort();
     return;

@@ -8,6 +8,17 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 
+# pitchboard_needs(<package> <version> [OPTION of find_package...]): a package of this version or a later one. Asked for
+# a version, its own file might refuse a later one: pagmo 2.19 is not "2.18" to it, and a new major version rarely is.
+# docs/building.md lists these versions (scripts/check_docs.py compares them).
+macro(pitchboard_needs package version)
+  find_package(${package} REQUIRED ${ARGN})
+  if(${package}_VERSION VERSION_LESS ${version})
+    message(FATAL_ERROR "Pitchboard needs ${package} ${version} or later, and this system has ${${package}_VERSION}. "
+                        "Install a later version (docs/building.md lists all of them).")
+  endif()
+endmacro()
+
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   # The sloppiness settings let precompiled headers hit the cache; the base directory lets two
@@ -66,6 +77,34 @@ function(pitchboard_compile_quickly target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
+# A precompiled header serves only what is compiled with the same options; gcc 13 and later refuse it to another level of
+# optimization. A header that modules of both levels use is therefore made twice: <target>, and <target>_light at -O1.
+# pitchboard_precompiled(<target> HEADERS ... [LIBS ...]) makes them; pitchboard_use_precompiled(<target> <header> <light>)
+# chooses one. They only save time: every file includes what it needs, as a build with
+# CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
+function(pitchboard_precompiled target)
+  cmake_parse_arguments(ARG "POSITION_INDEPENDENT" "" "HEADERS;LIBS" ${ARGN})
+  file(CONFIGURE OUTPUT precompiled.cpp CONTENT "")
+  foreach(name IN ITEMS ${target} ${target}_light)
+    add_library(${name} STATIC ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
+    set_target_properties(${name} PROPERTIES AUTOMOC OFF)
+    target_link_libraries(${name} PRIVATE ${ARG_LIBS})
+    target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+    pitchboard_warnings(${name})
+    if(ARG_POSITION_INDEPENDENT)
+      pitchboard_position_independent(${name})
+    endif()
+  endforeach()
+  pitchboard_compile_quickly(${target}_light -O1)
+  set_target_properties(${target} ${target}_light PROPERTIES EXCLUDE_FROM_ALL ON)  # built where they are used
+endfunction()
+function(pitchboard_use_precompiled target header light)
+  if(light AND CMAKE_BUILD_TYPE STREQUAL Release)  # all other builds have one level
+    string(APPEND header _light)
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ${header})
+endfunction()
+
 # pitchboard_module(<library> <module> [LIGHTLY_OPTIMIZED] SOURCES ... [PUBLIC libs] [PRIVATE libs])
 # makes <library>::<module> from the current directory: include/ holds what other modules may include,
 # src/ the rest. LIGHTLY_OPTIMIZED: nobody waits for a loop in it; compiled at -O1. A module can include
@@ -85,25 +124,22 @@ function(pitchboard_module library module)
   if(ARG_LIGHTLY_OPTIMIZED)
     pitchboard_compile_quickly(${target} -O1)
   endif()
-  # One precompiled header for everything without Qt, one with <QtWidgets> for the window. They only
-  # save time: every file includes what it needs, as a build with
-  # CMAKE_DISABLE_PRECOMPILE_HEADERS=ON shows.
+  # One precompiled header for everything without Qt, one with <QtWidgets> for the window.
   if(library STREQUAL ui)
-    target_precompile_headers(${target} REUSE_FROM ui_precompiled)
-    return()
-  endif()
-  pitchboard_position_independent(${target})
-  if(NOT target STREQUAL simcore_base)
-    target_precompile_headers(${target} REUSE_FROM simcore_base)
+    pitchboard_use_precompiled(${target} ui_precompiled ${ARG_LIGHTLY_OPTIMIZED})
+  else()
+    pitchboard_position_independent(${target})
+    pitchboard_use_precompiled(${target} precompiled ${ARG_LIGHTLY_OPTIMIZED})
   endif()
 endfunction()
 
-# pitchboard_modules(<library> <module>...): adds the folders of the modules, and <library>::all.
+# pitchboard_modules(<library> <folder>...): adds the folders of the modules, which have their names, and <library>::all.
 function(pitchboard_modules library)
   add_library(${library}_all INTERFACE)
   add_library(${library}::all ALIAS ${library}_all)
-  foreach(module IN LISTS ARGN)
-    add_subdirectory(${module})
+  foreach(folder IN LISTS ARGN)
+    add_subdirectory(${folder})
+    get_filename_component(module ${folder} NAME)
     target_link_libraries(${library}_all INTERFACE ${library}::${module})
   endforeach()
 endfunction()
@@ -139,6 +175,9 @@ function(pitchboard_test_options name)
   pitchboard_warnings(${name})
   # gcc takes what stands in an unnamed namespace of a file compiled together with others for a header's.
   target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  if(Qt6_VERSION VERSION_GREATER_EQUAL 6.5)
+    target_compile_options(${name} PRIVATE -Wno-conversion)  # its QTRY_VERIFY makes an int of milliseconds in our code
+  endif()
   pitchboard_compile_quickly(${name} -O0)
   if(LLD_PROGRAM)
     target_link_options(${name} PRIVATE -fuse-ld=lld)
@@ -213,6 +252,9 @@ function(pitchboard_test name)
   endif()
   set_tests_properties(${name} PROPERTIES ENVIRONMENT "${environment}" LABELS "${folder};${ARG_LABELS}"
                        TIMEOUT ${ARG_TIMEOUT})
+  if("slow" IN_LIST ARG_LABELS)
+    set_tests_properties(${name} PROPERTIES COST 100)  # first, also where ctest has not measured them yet
+  endif()
   foreach(label IN ITEMS ${folder} ${ARG_LABELS})
     if(NOT TARGET build_${label}_tests)
       add_custom_target(build_${label}_tests)

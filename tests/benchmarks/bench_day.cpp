@@ -26,7 +26,6 @@
 #include <telemetry/session/session_reader.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 #include <telemetry/wire/text_protocol.h>
-#include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 
 using namespace pitchboard;
@@ -142,7 +141,7 @@ int make(const std::string& file, const Day& day) {
     }
     if (time >= frame) {
       frame += 0.25;
-      (void)pipeline.frame(at(time));
+      (void)pipeline.advance(at(time));
     }
   }
   if (const auto done = (*recorder)->finish(); !done) {
@@ -266,7 +265,7 @@ int open(const std::string& file, std::size_t megabytes) {
         &replay, &ui::FrameSource::frameReceived,
         [&](const ui::FramePtr& frame) { there = std::abs(frame->snapshot.time - time) < 1.0; });
     clock.start();
-    replay.playback()->seek(time);
+    replay.standAt(time);
     const bool came = waitFor([&] { return there; });
     QObject::disconnect(seen);
     if (!came) return 1;

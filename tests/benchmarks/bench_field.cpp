@@ -33,6 +33,7 @@ FramePtr movingFrame(int serial) {
     const double phase = serial * 0.01 + i;
     link::RobotFrame robot;
     robot.identity = {RobotId{i + 1}, i < 11 ? TeamColor::Blue : TeamColor::Red, i % 11 + 1, false};
+    robot.uid = link::uidOf(robot.identity.id);
     robot.key = link::keyOf(robot.identity);
     robot.name = robot.identity.name();
     robot.pose = {{-4.0 + 0.38 * i + 0.3 * std::cos(phase), 2.4 * std::sin(phase * 0.7)}, phase};
@@ -54,9 +55,9 @@ std::unique_ptr<FieldView> viewOf(const benchmark::State& state) {
   }
   view->show();
   for (int i = 0; i < firstSerial; ++i) view->showFrame(movingFrame(i));
-  std::vector<RobotKey> selected;
+  std::vector<RobotUid> selected;
   for (const link::RobotFrame& robot : movingFrame(firstSerial)->robots) {
-    if (selected.size() < static_cast<std::size_t>(state.range(3))) selected.push_back(robot.key);
+    if (selected.size() < static_cast<std::size_t>(state.range(3))) selected.push_back(robot.uid);
   }
   view->select(selected);
   QCoreApplication::processEvents();

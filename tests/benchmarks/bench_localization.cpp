@@ -14,7 +14,7 @@ namespace {
 
 void update(benchmark::State& state) {
   LocalizationParameters parameters;
-  parameters.leastParticles = parameters.mostParticles = static_cast<int>(state.range(0));
+  parameters.minParticles = parameters.maxParticles = static_cast<int>(state.range(0));
   parameters.resampleAlways = true;
   auto filter = MonteCarloLocalization::create(sim::FieldSpec{}, parameters).value();
   LocalizationInput input;

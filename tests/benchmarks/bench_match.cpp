@@ -10,14 +10,12 @@
 namespace pitchboard::link {
 namespace {
 
-void match(benchmark::State& state, const char* name, const char* noise, bool naive,
-           bool advised = false) {
+void match(benchmark::State& state, const char* name, const char* noise, bool naive) {
   Scenario scenario = loadScenario(name).value();
   scenario.settings.noise = noisePreset(noise).value();
   if (naive) {
     for (ScenarioRobot& robot : scenario.robots) robot.behaviour = "naive";
   }
-  if (advised) scenario.advisors[TeamColor::Blue];
   MatchOptions options;
   options.process.particles = 500;
   auto played = SimulatedMatch::create(scenario, options).value();
@@ -32,8 +30,6 @@ BENCHMARK_CAPTURE(match, rigid_body_realistic_noise, "match-3v3", "realistic", t
 BENCHMARK_CAPTURE(match, soccer_realistic_noise, "match-3v3", "realistic", false)->MinTime(2.0);
 // A whole match: four a side, from kick-off on, with its referee.
 BENCHMARK_CAPTURE(match, whole_4v4_realistic_noise, "match", "realistic", false)->MinTime(2.0);
-// Its blue team thinks ahead (docs/advisor.md).
-BENCHMARK_CAPTURE(match, whole_4v4_advisor_blue, "match", "realistic", false, true)->MinTime(2.0);
 BENCHMARK_CAPTURE(match, published_physics, "published-match-3v3", "published", true)->MinTime(2.0);
 
 }  // namespace

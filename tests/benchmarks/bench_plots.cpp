@@ -22,7 +22,7 @@
 #include <ui/base/plot_target.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "frame_times.h"
 #include "plot_feed.h"
@@ -59,7 +59,7 @@ class StoredSource : public FrameSource {
       m_store->append(group, {i / rate, {}, values});
     }
   }
-  SourceKind kind() const override { return SourceKind::Simulate; }
+  const SourceKind& kind() const override { return SourceKind::Simulate; }
   FramePtr frame() const override { return {}; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_store; }
   QString emptyText() const override { return {}; }
@@ -69,14 +69,14 @@ class StoredSource : public FrameSource {
 };
 
 struct Bench {
-  SourceSwitch sources;
-  LinkedTime time;
+  ShownMoment sources;
+  LinkedTime time{&sources};
   PlotTarget target;
   std::unique_ptr<PlotsDock> dock;
 
   explicit Bench(StoredSource* source, QSize size, int shown = curves) : sources(source) {
     PlotsContext context;
-    context.source = &sources;
+    context.shown = &sources;
     context.time = &time;
     context.plots = &target;
     dock = std::make_unique<PlotsDock>(context, nullptr);

@@ -80,7 +80,7 @@ void measure(const char* title, const char* scenario, const char* behaviour, boo
   }
   match->pace().setPlaying(lockStep ? 0.0 : 1.0, false, Steady::now());
   const auto tick = std::chrono::duration_cast<Steady::duration>(Seconds(1.0 / tickRate));
-  double fastest = 0.0, leastCpu = 1e9, leastPerTick = 1e9;
+  double fastest = 0.0, minCpu = 1e9, minPerTick = 1e9;
   for (int i = -1; i < measurements; ++i) {  // the first one starts the processes
     const auto begin = Steady::now();
     auto looked = begin, next = begin;
@@ -100,12 +100,12 @@ void measure(const char* title, const char* scenario, const char* behaviour, boo
     const double passed = Seconds(Steady::now() - begin).count();
     const double spent = allCpu(*match) - cpu;
     fastest = std::max(fastest, ticks / tickRate / passed);
-    leastCpu = std::min(leastCpu, spent / passed);
-    leastPerTick = std::min(leastPerTick, spent / ticks);
+    minCpu = std::min(minCpu, spent / passed);
+    minPerTick = std::min(minPerTick, spent / ticks);
   }
   std::printf("%-44s %3zu processes  %6.1f x real time  %5.1f %% of a core  %6.0f us CPU a tick\n",
-              title, match->robots().processes().statuses().size(), fastest, 100 * leastCpu,
-              1e6 * leastPerTick);
+              title, match->robots().processes().statuses().size(), fastest, 100 * minCpu,
+              1e6 * minPerTick);
   std::fflush(stdout);
 }
 

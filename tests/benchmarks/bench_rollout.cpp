@@ -10,10 +10,10 @@
 #include <numeric>
 #include <vector>
 
-#include <robotlink/capi/rollout_rows.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/noise_presets.h>
 #include <robotlink/models/robot_models.h>
+#include <robotlink/rollout/rollout_start.h>
 
 namespace pitchboard {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The series store: values appended a second, what a curve's query over ten million points costs,
-// memory and time of sampling a played match.
+// memory and time of sampling a played match, and samples of computed curves.
 
 #include <unistd.h>
 
@@ -12,6 +12,7 @@
 #include <benchmark/benchmark.h>
 
 #include <robotlink/session/match_sampler.h>
+#include <telemetry/expression/expression.h>
 #include <telemetry/series/series_store.h>
 
 #include "frame_times.h"
@@ -134,6 +135,22 @@ void sampling(benchmark::State& state) {
   }
 }
 BENCHMARK(sampling)->Iterations(20'000)->Unit(benchmark::kMicrosecond);
+
+/// A sample of a computed curve: the expression alone.
+void expression(benchmark::State& state, const char* text) {
+  auto made = Expression::parse(text).value();
+  std::vector<double> values(made.variables().size(), 2.0);
+  double time = 0.0;
+  for (auto _ : state) {
+    values[0] = time += 0.01;
+    benchmark::DoNotOptimize(made.evaluate(time, values));
+  }
+}
+BENCHMARK_CAPTURE(expression, arithmetic, "B1.A * 2 + B1.B * 3 - 4");
+BENCHMARK_CAPTURE(expression, distance, "hypot(B1.A - B1.B, B1.C - B1.D)");
+BENCHMARK_CAPTURE(expression, condition, "B1.A == 4 ? B1.B : 0");
+BENCHMARK_CAPTURE(expression, logic, "B1.A > 2 && B1.B < 3 || !B1.C");
+BENCHMARK_CAPTURE(expression, powers, "B1.A ^ 2 + B1.B ^ 2");
 
 /// An hour at 60 Hz. MB by the store's own account, and what the process grew by.
 void hourOfMatch(benchmark::State& state) {

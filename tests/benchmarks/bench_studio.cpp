@@ -42,7 +42,7 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
 #include "../support/test_socket.h"
@@ -318,9 +318,9 @@ int replay(const char* path) {
   plots->time()->setWindow(60.0);
   spin(std::chrono::seconds(2));
   const auto* chart = studio.window.findChild<ui::ChartPane*>();
-  const double length = studio.window.timeline()->available()->end;
+  const double length = studio.window.shown()->available()->end;
   constexpr int times = 40;
-  constexpr double longestFetch = 20'000.0;  // ms
+  constexpr double maxFetch = 20'000.0;  // ms
   std::vector<double> cpu, real;
   for (int i = 0; i < times; ++i) {
     // Neither what was read before nor what lies beside it.
@@ -339,10 +339,10 @@ int replay(const char* path) {
     };
     const double cpuBefore = cpuMilliseconds();
     const auto begin = Clock::now();
-    studio.window.timeline()->seek(time);
+    studio.window.shown()->seek(time);
     while (!isDrawn()) {
       QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
-      if (millisecondsSince(begin) < longestFetch) continue;
+      if (millisecondsSince(begin) < maxFetch) continue;
       const auto& trace = chart->traces()[0];
       std::fprintf(stderr,
                    "error: the curves at %.1f s are not drawn; shown: %.1f to %.1f s, curve: %s\n",

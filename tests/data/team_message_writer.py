@@ -106,7 +106,8 @@ for _ in range(20):
         {"ROLE": 5, "POSE_X": mx, "POSE_YAW": degrees, **published(mx / 1000, my / 1000, math.radians(degrees)), **seen(ax / 1000, ay / 1000)}, team)
 
     age = f32(rng.choice([-1.0, 0.0, 2.5]))
-    ball = seen(f32(ahead * 1000) / 1000, f32(left * 1000) / 1000) if age >= 0 else {"VISION_BALL_DIST": None}
+    # A ball that was seen more than 2 s ago is not seen.
+    ball = seen(f32(ahead * 1000) / 1000, f32(left * 1000) / 1000) if 0 <= age <= 2 else {"VISION_BALL_DIST": None}
     spl = struct.pack("<BBB3f", robot, team, 0, x * 1000, y * 1000, yaw)
     millimetres = published(f32(x * 1000) / 1000, f32(y * 1000) / 1000, yaw)
     for version in (7, 8, 9):
@@ -123,8 +124,8 @@ for _ in range(20):
 
     data = struct.pack("<IIffff", 0, robot - 1, math.cos(yaw), math.sin(yaw), x, y)
     if rng.random() < 0.5:
-        add("hulks", "hulks", robot, data + b"\1" + struct.pack("<ffQI", bx, by, 3, 250000000),
-            {"BALL_AGE": 3.25, **there, **seen_on_field(x, y, yaw, bx, by)})
+        add("hulks", "hulks", robot, data + b"\1" + struct.pack("<ffQI", bx, by, 1, 250000000),
+            {"BALL_AGE": 1.25, **there, **seen_on_field(x, y, yaw, bx, by)})
     else:
         add("hulks", "hulks", robot, data + b"\0", {"BALL_X": None, "VISION_BALL_DIST": None, **there})
 

@@ -30,11 +30,11 @@ struct SourceFile {
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> modules{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
-      {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session"}},
+      {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session", "recordings"}},
       {"robotlink",
-       {"blackboard", "processes", "models", "cognition", "rollout", "advisor", "scenario", "frame",
-        "match", "live", "session", "report", "experiment", "learn", "calibrate", "conformance",
-        "capi", "explore"}},
+       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match",
+        "live", "session", "import", "report", "experiment", "learn", "calibrate", "conformance",
+        "capi", "explore", "rerun"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
         "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "window"}}};
@@ -50,9 +50,9 @@ inline const QList<Module>& table() {
     const QString wire = "telemetry/wire", series = "telemetry/series";
     const QString board = "robotlink/blackboard", processes = "robotlink/processes",
                   models = "robotlink/models", cognition = "robotlink/cognition",
-                  rollout = "robotlink/rollout", advisor = "robotlink/advisor",
-                  scenario = "robotlink/scenario", frame = "robotlink/frame",
-                  match = "robotlink/match", live = "robotlink/live", session = "robotlink/session";
+                  rollout = "robotlink/rollout", scenario = "robotlink/scenario",
+                  frame = "robotlink/frame", match = "robotlink/match", live = "robotlink/live",
+                  session = "robotlink/session";
     const QStringList below = all("simcore") + all("telemetry");
     const QStringList belowUi = below + all("robotlink");
     const QStringList qt{"Q"};
@@ -68,24 +68,23 @@ inline const QList<Module>& table() {
         {"telemetry/pb2", {base}, {}},
         {series, {base}, {}},
         {"telemetry/expression", {base}, {"muParser.h"}},
-        {"telemetry/mcap", {base}, {"zlib.h", "zstd.h"}},
+        {"telemetry/mcap", {base}, {"lz4frame.h", "zlib.h", "zstd.h"}},
         {"telemetry/session", {base, wire, series, "telemetry/mcap"}, {"nlohmann/", "zlib.h"}},
+        {"telemetry/recordings",
+         {base, wire, "telemetry/mcap"},
+         {"google/protobuf/", "nlohmann/", "sqlite3.h", "yaml-cpp/"}},
         {board, {base, world, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
         {cognition,
          {base, world, wire, board, processes, models, "resources"},
          {"Eigen/", "nlohmann/"}},
-        // As a robot's processes, it knows nothing of matches and scenarios.
-        {rollout, {base, world, cognition}, {}},
-        {advisor, {base, world, board, processes, cognition, rollout}, {"nlohmann/"}},
         {scenario,
          {base, world, simulation, wire, board, processes, models, cognition, "resources"},
          {"nlohmann/"}},
         {frame, {base, world, series, wire, board, processes, cognition}, {}},
         {match,
-         all("simcore") +
-             QStringList{wire, board, processes, models, cognition, advisor, scenario, frame},
+         all("simcore") + QStringList{wire, board, processes, models, cognition, scenario, frame},
          {}},
         {live,
          {base, world, simulation, "telemetry/pb2", wire, series, board, models, frame},
@@ -93,6 +92,11 @@ inline const QList<Module>& table() {
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
          {"nlohmann/"}},
+        {"robotlink/import",
+         below + QStringList{board, cognition, scenario, frame, match, live, session},
+         {"nlohmann/"}},
+        // It plays beliefs, not matches.
+        {rollout, {base, world, cognition, scenario}, {}},
         {"robotlink/report", below + QStringList{frame, session}, {"boost/"}},
         {"robotlink/experiment",
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
@@ -109,16 +113,21 @@ inline const QList<Module>& table() {
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
         {"robotlink/capi",
-         {base, world, simulation, board, processes, models, cognition, rollout, scenario, match},
+         {base, world, simulation, series, "telemetry/session", board, processes, models, cognition,
+          rollout, scenario, match, session},
          {"nlohmann/"}},
         {"robotlink/explore",
-         {base, world, cognition, models, rollout, scenario, frame, session, "robotlink/capi"},
+         {base, world, cognition, models, rollout, scenario, frame, session},
          {}},
+        {"robotlink/rerun",
+         below + QStringList{board, processes, cognition, scenario, frame, match, live, session,
+                             "robotlink/report", "robotlink/experiment"},
+         {"nlohmann/"}},
         // What more than one program needs of its command line.
         {"app/shared", {base, models, scenario, match}, {"CLI/"}},
         // A robot's processes know nothing of matches, scenarios, sessions and windows.
         {"app/robot",
-         {base, world, wire, board, processes, models, cognition, advisor, "app/shared"},
+         {base, world, wire, board, processes, models, cognition, "app/shared"},
          {"CLI/"}},
         // For the robot's computer: one small static program without packages.
         {"app/agent", {base, "telemetry/pb2", wire, board}, {}},
@@ -149,10 +158,51 @@ inline const Module* find(const QList<Module>& modules, const QString& folder) {
   return found == modules.end() ? nullptr : &*found;
 }
 
-/// "ui/field" of "ui/field/src/ball_item.cpp"; resources are one module.
+/// The folder of the module of a file: "robotlink/live" and "robotlink/match/frame".
+inline QString folderOfPath(const QString& path) {
+  static const QRegularExpression parts(QStringLiteral("/(src|include|python)/"));
+  return path.left(path.indexOf(parts)).section('/', 0, 2);
+}
+
+/// "ui/field" of "ui/field/src/ball_item.cpp", "robotlink/frame" of
+/// "robotlink/match/frame/src/teams.cpp"; resources are one module.
 inline QString moduleOfPath(const QString& path) {
   if (path.startsWith("resources/")) return "resources";
-  return path.section('/', 0, 1);
+  const QString folder = folderOfPath(path);
+  return path.startsWith("robotlink/")
+             ? folder.section('/', 0, 0) + '/' + folder.section('/', -1, -1)
+             : path.section('/', 0, 1);
+}
+
+/// Rooms of robotlink, the lowest first: its folders, which may only use those before them.
+inline const QStringList& rooms() {
+  static const QStringList names{"robot", "match", "live", "sessions", "laboratory"};
+  return names;
+}
+
+/// What a room of `files` uses of a room above it.
+inline QStringList roomErrors(const QList<SourceFile>& files) {
+  static const QRegularExpression include(QStringLiteral("^#include <robotlink/([a-z]+)/"),
+                                          QRegularExpression::MultilineOption);
+  QHash<QString, qsizetype> roomOf;  // of a module
+  for (const SourceFile& file : files) {
+    if (!file.path.startsWith("robotlink/")) continue;
+    const QString folder = folderOfPath(file.path);
+    roomOf[folder.section('/', -1, -1)] = rooms().indexOf(folder.section('/', 1, 1));
+  }
+  QStringList wrong;
+  for (const SourceFile& file : files) {
+    if (!file.path.startsWith("robotlink/")) continue;
+    const qsizetype room = rooms().indexOf(folderOfPath(file.path).section('/', 1, 1));
+    if (room < 0) wrong << file.path + ": its folder is no room of robotlink";
+    for (auto matches = include.globalMatch(file.text); matches.hasNext();) {
+      const QString module = matches.next().captured(1);
+      if (roomOf.value(module, -1) > room) {
+        wrong << file.path + " uses robotlink/" + module + ", which is in a room above";
+      }
+    }
+  }
+  return wrong;
 }
 
 /// The module of one of our headers ("robotlink/frame" of "robotlink/frame/build_robot.h"); empty
@@ -170,7 +220,7 @@ inline QString moduleOfHeader(const QString& header) {
 /// Plain names such as <vector> or <unistd.h>: no folder, no upper case, and not a package's.
 inline bool isSystemHeader(const QString& header) {
   static const QRegularExpression plain(QStringLiteral("^[a-z_0-9]+(\\.h)?$"));
-  static const QStringList packages{"zlib.h", "zstd.h"};
+  static const QStringList packages{"lz4frame.h", "sqlite3.h", "zlib.h", "zstd.h"};
   static const QRegularExpression folder(QStringLiteral("^(sys|linux|netinet|arpa|net)/"));
   return (plain.match(header).hasMatch() && !packages.contains(header)) ||
          folder.match(header).hasMatch();
@@ -204,7 +254,8 @@ inline QStringList includeErrors(const QList<SourceFile>& files, const QList<Mod
       if (match.captured(1) == "\"") {
         const QString beside = file.path.section('/', 0, -2) + '/' + header;
         if (header.contains("..") ||
-            (!paths.contains(beside) && !paths.contains(module + "/src/" + header))) {
+            (!paths.contains(beside) &&
+             !paths.contains(folderOfPath(file.path) + "/src/" + header))) {
           wrong << place + '"' + header + "\", which is not of its module";
         }
         continue;
@@ -249,6 +300,7 @@ inline QList<Links> linksOf(const SourceFile& cmake) {
         part = word;
       } else if (word.contains("::")) {
         // The parts that programs share are one module.
+        if (links.folder == "app/shared" && word.startsWith("app::")) continue;
         (part == "PUBLIC" ? links.publicOnes : links.privateOnes)
             << (word.startsWith("app::") ? QStringLiteral("app::shared") : word);
       }
@@ -266,6 +318,10 @@ inline QString headerOfPackage(const QString& target) {
                                                {"ZLIB::ZLIB", "zlib.h"},
                                                {"PkgConfig::SLEEF", "sleef.h"},
                                                {"PkgConfig::ZSTD", "zstd.h"},
+                                               {"PkgConfig::LZ4", "lz4frame.h"},
+                                               {"PkgConfig::sqlite3", "sqlite3.h"},
+                                               {"PkgConfig::YAML", "yaml-cpp/"},
+                                               {"protobuf::libprotobuf", "google/protobuf/"},
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"Boost::headers", "boost/"},
                                                {"CLI11::CLI11", "CLI/"},
@@ -309,14 +365,15 @@ inline QStringList packageErrors(const QList<SourceFile>& cmakes, const QList<So
   QStringList wrong;
   for (const SourceFile& cmake : cmakes) {
     for (const Links& links : linksOf(cmake)) {
+      const QString folder =
+          links.folder.startsWith("robotlink/") ? cmake.path.section('/', 0, -2) : links.folder;
       for (const QString& target : links.both()) {
         const QString header = headerOfPackage(target);
         // Modules of ours, and what is one package with many parts.
         if (header.isEmpty() || header == target || header == "Q") continue;
-        if (!includes(links.folder, header)) {
+        if (!includes(folder, header)) {
           wrong << cmake.path + ": " + links.folder + " links " + target + " and does not use it";
-        } else if (links.publicOnes.contains(target) &&
-                   !includes(links.folder + "/include", header)) {
+        } else if (links.publicOnes.contains(target) && !includes(folder + "/include", header)) {
           wrong << cmake.path + ": " + links.folder + " shows " + target + " to others";
         }
       }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A hand at the studio's window for tests that run it as a program: a plugin of Qt that does what
-// its standard input says. "close": the window's button; "quit": Ctrl+Q; "minimize". "look" answers
-// on standard output with the window's title, and "minimized" before it when it is.
+// its standard input says. "close": the window's button; "quit": Ctrl+Q; "minimize"; "other
+// button": the button of a question that is not its default. "look" answers on standard output with
+// the window's title, and "minimized" before it when it is.
 #include <unistd.h>
 #include <QGenericPlugin>
 #include <QGuiApplication>
@@ -42,6 +43,14 @@ class Hand : public QObject {
       if (shown && shown->windowStates().testFlag(Qt::WindowMinimized)) seen.prepend("minimized ");
       seen += '\n';
       if (write(STDOUT_FILENO, seen.constData(), std::size_t(seen.size())) < 0) return;
+    }
+    if (word == "other button") {
+      for (QWindow* window : QGuiApplication::topLevelWindows()) {
+        if (!window->isVisible() || window->transientParent() == nullptr) continue;
+        QTest::keyClick(window, Qt::Key_Tab);
+        QTest::keyClick(window, Qt::Key_Space);
+        return;
+      }
     }
     if (shown == nullptr) return;
     if (word == "minimize") shown->setWindowState(Qt::WindowMinimized);

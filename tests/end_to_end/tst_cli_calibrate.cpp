@@ -54,7 +54,7 @@ class TestCliCalibrate : public QObject {
       QTest::newRow(name) << (QStringList{"calibrate"} + arguments + QStringList{"-o", out})
                           << QString(words);
     };
-    row("no such robot", {m_session, "--robot", "R4"}, "robot R4; it has B1, B2");
+    row("no such robot", {m_session, "--robot", "R4"}, "no robot \"R4\"; there are: B1, B2");
     row("another program's", {PITCHBOARD_TEST_DATA "/../../README.md", "--robot", "B1"}, "MCAP");
     row("no file", {path("none.mcap"), "--robot", "B1"}, "none.mcap");
     row("times", {m_session, "--robot", "B1", "--from", "soon"}, "--from must be a time");

@@ -31,16 +31,13 @@ class TestCliExplore : public QObject {
     QVERIFY2(run.exitCode == 0, run.err.constData());
   }
 
-  void actionsOfARobotAreCompared() {
-    const QStringList arguments{m_session,   "--at", "6",          "--robot", "B1",
-                                "--seconds", "5",    "--rollouts", "60"};
+  void aMomentIsExplored() {
+    const QStringList arguments{m_session, "--at", "6", "--seconds", "5", "--rollouts", "60"};
     const ProgramRun run = explore(arguments);
     QVERIFY2(run.exitCode == 0, run.err.constData());
     QVERIFY2(run.out.contains("where they believe they are"), run.out.constData());
     QVERIFY2(run.out.contains("60 rollouts of 5 s from 6.00 s"), run.out.constData());
     QVERIFY2(run.out.contains("Goal of the left team"), run.out.constData());
-    QVERIFY2(run.out.contains("Plays on (striker)"), run.out.constData());
-    QVERIFY2(run.out.contains("significant") || run.out.contains("is best"), run.out.constData());
     const ProgramRun json = explore(arguments + QStringList{"--json", "--truth"});
     QVERIFY2(json.exitCode == 0, json.err.constData());
     const QJsonObject out = QJsonDocument::fromJson(json.out).object();
@@ -51,8 +48,6 @@ class TestCliExplore : public QObject {
     double sum = 0.0;
     for (const auto& cell : times[5].toObject()["cells"].toArray()) sum += cell.toDouble();
     QVERIFY(std::abs(sum - 1.0) < 1e-3);
-    QVERIFY(out["actions"].toArray().size() >= 4);
-    QVERIFY(out["actions"].toArray()[1].toObject().contains("behind_best"));
     // The same question has the same answer.
     QCOMPARE(explore(arguments + QStringList{"--json", "--truth"}).out, json.out);
   }
@@ -60,8 +55,6 @@ class TestCliExplore : public QObject {
   void badQuestionsAreNamed_data() {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QString>("words");
-    QTest::newRow("no such robot")
-        << QStringList{m_session, "--at", "6", "--robot", "B7"} << "there are B1, B2, B3, R1";
     QTest::newRow("no such time") << QStringList{m_session, "--at", "60"} << "--at: ";
     QTest::newRow("no time") << QStringList{m_session, "--at", "soon"} << "--at: ";
     QTest::newRow("no file") << QStringList{"none.mcap", "--at", "6"} << "none.mcap";

@@ -103,6 +103,42 @@ class Listener {
 class TestCliLive : public QObject {
   Q_OBJECT
  private slots:
+  /// The second program used to take all robots that send to this computer alone, and neither said
+  /// so.
+  void twoProgramsOnTheSamePorts() {
+    Listener first, second;
+    first.arguments.replace(first.arguments.indexOf("127.0.0.1"), "0.0.0.0");
+    second.arguments = first.arguments;
+    QVERIFY(first.start());
+    QVERIFY(second.start());
+    const TestSocket robot;
+    const auto port = static_cast<std::uint16_t>(first.base + 1);
+    const QByteArray message = "1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT";
+    QVERIFY(robot.send(port, message.toStdString()));
+    QCOMPARE(first.read(1).size(), 1);
+    if (!robot.send(port, message.toStdString() + " ", 0x7fffffff)) QSKIP("no broadcast");
+    // The first thing that the second one receives is the broadcast.
+    QCOMPARE(second.read(1).value(0)["bytes"].toInt(), int(message.size()) + 1);
+    const auto says = [](Listener& one, const QByteArray& text) {
+      one.process.setReadChannel(QProcess::StandardError);
+      one.err += one.process.readAllStandardError();
+      return one.err.contains(text);
+    };
+    const auto idOf = [](const Listener& one) {
+      return "pitchboard-cli (process " + QByteArray::number(one.process.processId()) + ")";
+    };
+    QTRY_VERIFY2_WITH_TIMEOUT(says(second, "was first opened by " + idOf(first)),
+                              second.err.constData(), 20'000);
+    QTRY_VERIFY2_WITH_TIMEOUT(says(first, "was also opened by " + idOf(second)),
+                              first.err.constData(), 20'000);
+    // One sentence for all ports; a second one if the second program was just opening them.
+    QVERIFY2(first.err.count("was also opened by") <= 2, first.err.constData());
+    QCOMPARE(first.interrupt(), 0);
+    QTRY_VERIFY2_WITH_TIMEOUT(says(second, "No other program receives"), second.err.constData(),
+                              20'000);
+    QCOMPARE(second.interrupt(), 0);
+  }
+
   void receivesRobotsWrittenByOthers() {
     Listener listener;
     QVERIFY(listener.start());
@@ -253,7 +289,8 @@ class TestCliLive : public QObject {
                        << "0.01";
     const Outcome outcome = run(listener.arguments);
     QCOMPARE(outcome.exitCode, 0);
-    QVERIFY2(outcome.err.contains("warning: UDP port " + QByteArray::number(blocker.port())),
+    QVERIFY2(outcome.err.contains("warning: Cannot receive on UDP port " +
+                                  QByteArray::number(blocker.port())),
              outcome.err.constData());
   }
 

@@ -5,6 +5,7 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QtTest>
+#include <algorithm>
 
 #include <telemetry/session/session_reader.h>
 
@@ -82,7 +83,7 @@ class TestCliLiveRecording : public QObject {
     QCOMPARE(session->info().source, std::string("live"));
     // The robot, and its link.
     QCOMPARE(session->groups().size(), std::size_t{2});
-    const GroupId ofRobot = session->groups()[0].info.attributes.contains("link") ? 1 : 0;
+    const GroupId ofRobot = !factsOf(session->groups()[0].info).linkOf.empty() ? 1 : 0;
     const GroupInfo& info = session->groups()[ofRobot].info;
     std::vector<double> places;
     session->rows(always, {}, [&](GroupId group, const RowView& row) {
@@ -117,13 +118,79 @@ class TestCliLiveRecording : public QObject {
     for (const SessionEvent& event : session->events()) {
       if (!event.group.empty()) QCOMPARE(event.group, std::string("Robot 1"));
     }
-    for (const char* name : {"Robot 1", "B1"}) {
-      const ProgramRun lines =
-          runProgram("pitchboard-cli", {"export", path, "--to", "csv-wide", "--robots", name,
-                                        "--variables", "VISION_BALL_DIST"});
-      QVERIFY2(lines.exitCode == 0, lines.err.constData());
-      QCOMPARE(lines.out.split('\n').first(), QByteArray("time,Robot 1.VISION_BALL_DIST"));
+    const auto exported = [&path](const char* name) {
+      return runProgram("pitchboard-cli", {"export", path, "--to", "csv-wide", "--robots", name,
+                                           "--variables", "VISION_BALL_DIST"});
+    };
+    const ProgramRun lines = exported("Robot 1");
+    QVERIFY2(lines.exitCode == 0, lines.err.constData());
+    QCOMPARE(lines.out.split('\n').first(), QByteArray("time,Robot 1.VISION_BALL_DIST"));
+    // It was never called B1: the error lists what is there.
+    const ProgramRun guessed = exported("B1");
+    QCOMPARE(guessed.exitCode, 2);
+    QVERIFY2(guessed.err.contains("There is no robot \"B1\"; there are: Robot 1"),
+             guessed.err.constData());
+  }
+
+  /// A robot is switched on, and the recording is killed within two seconds: what the disk had been
+  /// given is there, from the robot's first datagram on.
+  void theFirstSecondsOutliveAKilledRecording() {
+    const TestSocket robot;
+    int base = 0, variables = 0, referee = 0;
+    {
+      const TestSocket first, second, third;
+      base = first.port() - 1;
+      variables = second.port() - 1;
+      referee = third.port();
     }
+    const QString path = m_folder.filePath("killed.mcap");
+    QProcess process;
+    process.start(program,
+                  {"record", "--live", "--bind", "127.0.0.1", "--robots", "1", "--port-base",
+                   QString::number(base), "--variables-port-base", QString::number(variables),
+                   "--gamecontroller-port", QString::number(referee), "-o", path});
+    QByteArray err;
+    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"),
+                             30'000);
+    // Neither of the columns that are compared is sent both as a variable and in messages.
+    constexpr int count = 8;
+    for (int i = 0; i < count; ++i) {
+      const std::string number = std::to_string(i);
+      QVERIFY(robot.send(static_cast<std::uint16_t>(variables + 1),
+                         "PB2 1 " + number + " " + std::to_string(9000 + 50 * i) +
+                             " @REFRESH=2000 COM_REFEREE=" + number + " OUT"));
+      QVERIFY(robot.send(static_cast<std::uint16_t>(base + 1),
+                         "1 " + number + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT"));
+    }
+    const auto recorded = [&path](const char* column) {
+      std::vector<double> values;
+      const auto session = SessionReader::open(path.toStdString());
+      if (!session) return values;
+      session->rows(always, {}, [&](GroupId group, const RowView& row) {
+        const GroupInfo& info = session->groups()[group].info;
+        const auto found = std::ranges::find(info.columns, column, &ColumnInfo::name);
+        if (found == info.columns.end()) return true;
+        const auto at = static_cast<std::size_t>(found - info.columns.begin());
+        values.push_back(valueOf(info, row, at));
+        return true;
+      });
+      return values;
+    };
+    // A chunk is on the disk within a second; the sender has stopped long before two.
+    QTRY_COMPARE_WITH_TIMEOUT(recorded("COM_REFEREE").size(), std::size_t{count}, 30'000);
+    process.kill();
+    QVERIFY(process.waitForFinished(60'000));
+    const auto session = SessionReader::open(path.toStdString());
+    QVERIFY(session && !session->complete());
+    for (const char* column : {"COM_REFEREE", "LOCALIZATION_X"}) {
+      const std::vector<double> values = recorded(column);
+      QCOMPARE(values.size(), std::size_t{count});
+      for (int i = 0; i < count; ++i) QCOMPARE(values[static_cast<std::size_t>(i)], double(i));
+    }
+    QCOMPARE(session->count(SessionStream::Telemetry), std::uint64_t{count});
+    QVERIFY(std::ranges::any_of(session->events(), [](const SessionEvent& event) {
+      return event.kind == "robot-heard" && event.group == "Robot 1";
+    }));
   }
 };
 

@@ -37,9 +37,9 @@ bool same(double a, double b) {
          (std::isnan(a) && std::isnan(b));
 }
 
-/// As the exports write numbers; nan for what is none.
+/// As the exports write numbers; NaN for what is unknown.
 double numberOf(const QByteArray& text) {
-  return std::strtod(text.constData(), nullptr);
+  return text.isEmpty() ? std::nan("") : std::strtod(text.constData(), nullptr);
 }
 
 /// By time, robot and variable.
@@ -141,7 +141,9 @@ class TestCliSessions : public QObject {
         if (!cells[i].isEmpty()) found[{numberOf(cells[0]), robot, name}] = numberOf(cells[i]);
       }
     }
-    compare(found, valuesOf(m_session, always));
+    Values known = valuesOf(m_session, always);
+    std::erase_if(known, [](const auto& one) { return std::isnan(one.second); });
+    compare(found, known);
   }
 
   void longCsvHasTheSelectedVariables() {
@@ -222,7 +224,100 @@ class TestCliSessions : public QObject {
     QVERIFY(all.size() > 1000);
     const double last = std::get<0>(all.rbegin()->first) - 0.01;
     compare(valuesOf(whole, {-1, last}), valuesOf(m_session, {-1, last}));
-    QCOMPARE(cli({"repair", broken, whole}).exitCode, 2);
+    const Run again = cli({"repair", broken, whole});
+    QCOMPARE(again.exitCode, 2);
+    QVERIFY2(again.err.contains("--force"), again.err.constData());
+    QCOMPARE(cli({"repair", broken, whole, "--force"}).exitCode, 1);
+    QCOMPARE(cli({"inspect", whole}).exitCode, 0);
+  }
+
+  /// Every command that prints says when it could not, here for a disk that is full.
+  void outputThatCannotBeWrittenIsAnError_data() {
+    QTest::addColumn<QStringList>("arguments");
+    QTest::newRow("inspect") << QStringList{"inspect", m_session};
+    QTest::newRow("inspect --json") << QStringList{"inspect", m_session, "--json", "--events"};
+    QTest::newRow("export") << QStringList{"export", m_session, "--robots", "match"};
+    QTest::newRow("decode") << QStringList{"decode", "telemetry", "-"};
+    QTest::newRow("simulate --list") << QStringList{"simulate", "--list"};
+    QTest::newRow("simulate") << QStringList{"simulate", "--duration", "1"};
+    QTest::newRow("experiment --list") << QStringList{"experiment", "--list"};
+    QTest::newRow("--help") << QStringList{"export", "--help"};
+    QTest::newRow("--version") << QStringList{"--version"};
+  }
+  void outputThatCannotBeWrittenIsAnError() {
+    QFETCH(QStringList, arguments);
+    QProcess process;
+    process.setStandardOutputFile("/dev/full");
+    process.start(program, arguments);
+    process.write("1 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT\n");
+    process.closeWriteChannel();
+    QVERIFY(process.waitForFinished(60'000));
+    const QByteArray error = process.readAllStandardError();
+    QVERIFY2(process.exitCode() == 2, error.constData());
+    QVERIFY2(error.count("error: ") == 1, error.constData());
+    QVERIFY2(error.contains("Cannot write to standard output"), error.constData());
+  }
+
+  void theNameOfTheOutputTellsTheFormat() {
+    const QString lines = newPath(".jsonl"), odd = newPath(".dat");
+    const Run run = cli({"export", m_session, "--robots", "match", "--until", "1", "-o", lines});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    QVERIFY(contents(lines).startsWith("{\"time\":0,"));
+    const Run refused = cli({"export", m_session, "-o", odd});
+    QCOMPARE(refused.exitCode, 2);
+    QVERIFY2(refused.err.contains("does not tell the format") && refused.err.contains("--to"),
+             refused.err.constData());
+    QVERIFY(!QFile::exists(odd));
+    QCOMPARE(cli({"export", m_session, "--until", "1", "--to", "csv-wide", "-o", odd}).exitCode, 0);
+    // Options of another format are refused by the same rule.
+    const Run rate = cli({"export", m_session, "--rate", "5", "-o", newPath(".csv")});
+    QVERIFY2(rate.exitCode == 2 && rate.err.contains("csv-even"), rate.err.constData());
+  }
+
+  void forceReplacesFiles() {
+    const QString session = newPath(".mcap"), table = newPath(".csv");
+    const QStringList record{"record", "--scenario", "one-robot", "--duration", "1", "-o", session};
+    const QStringList write{"export", session, "--to", "csv-wide", "-o", table};
+    for (const QStringList& command : {record, write}) {
+      QCOMPARE(cli(command).exitCode, 0);
+      const Run again = cli(command);
+      QCOMPARE(again.exitCode, 2);
+      QVERIFY2(again.err.contains("--force"), again.err.constData());
+      const Run forced = cli(command + QStringList{"--force"});
+      QVERIFY2(forced.exitCode == 0, forced.err.constData());
+    }
+    QCOMPARE(cli({"inspect", session}).exitCode, 0);
+    // With a scenario that cannot be played, the old recording stays.
+    const QByteArray before = contents(session);
+    QCOMPARE(cli({"record", "--scenario", "chess", "-o", session, "--force"}).exitCode, 2);
+    QVERIFY(contents(session) == before);
+    QVERIFY(!QFile::exists(session + ".part"));
+  }
+
+  void aFileThatIsBeingRecordedIsNotDamaged() {
+    const QString path = newPath(".mcap");
+    QProcess process;
+    process.start(program, {"record", "--duration", "1e8", "--speed", "4", "-o", path});
+    QTRY_VERIFY_WITH_TIMEOUT(QFileInfo(path).size() > 200'000, 60'000);
+    const Run look = cli({"inspect", path});
+    QVERIFY2(look.exitCode == 0, (look.out + look.err).constData());
+    QVERIFY2(look.out.contains("still being recorded"), look.out.constData());
+    QVERIFY2(!look.out.contains("damaged") && !look.out.contains("lost"), look.out.constData());
+    const Run part = cli({"export", path, "--robots", "match", "--variables", "BALL_X"});
+    QVERIFY2(part.exitCode == 0 && part.out.count('\n') > 50, part.err.constData());
+    for (const QStringList& command :
+         {QStringList{"repair", path, newPath(".mcap")},
+          QStringList{"record", "--duration", "1", "-o", path, "--force"}}) {
+      const Run refused = cli(command);
+      QCOMPARE(refused.exitCode, 2);
+      QVERIFY2(refused.err.contains("still being recorded"), refused.err.constData());
+    }
+    // Killed, it is what it was: cut off.
+    process.kill();
+    QVERIFY(process.waitForFinished(20'000));
+    const Run killed = cli({"inspect", path});
+    QVERIFY2(killed.exitCode == 1 && killed.out.contains("pitchboard-cli repair"),
+             killed.out.constData());
   }
 
   void damageInsideIsFoundAndRepaired() {
@@ -252,7 +347,7 @@ class TestCliSessions : public QObject {
     const Run all = cli({"repair", damaged, newPath(".mcap")});
     QVERIFY2(all.exitCode == 0 && all.err.contains("summary"), all.err.constData());
     QVERIFY2(all.out.endsWith(" were saved.\n"), all.out.constData());
-    // Itself is no target, whatever is to be written.
+    // A session is never overwritten by its own export, whatever the format.
     for (const QString format : {"csv-wide", "mcap", "report"}) {
       const Run self = cli({"export", m_session, "--to", format, "-o", m_session});
       QCOMPARE(self.exitCode, 2);

@@ -85,6 +85,23 @@ class TestCliSimulate : public QObject {
     QVERIFY(simulate({"--help"}).out.contains("pitchboard-cli simulate --scenario"));
   }
 
+  void aProgramThatDiesInALoopIsInTheSummaryAndTheExitCode() {
+    const QTemporaryDir dir;
+    const QString profile = ownDecision(dir, {"sh", "-c", "echo no camera; exit 3"});
+    const QStringList arguments{"--scenario", "one-robot", "--duration", "2",
+                                "--speed",    "max",       "--runtime",  profile};
+    const Run text = simulate(arguments);
+    QCOMPARE(text.exitCode, 1);
+    QVERIFY2(text.out.contains("Died       ") && text.out.contains("decision, ") &&
+                 text.out.contains("exit code 3; last output: no camera"),
+             text.out);
+    const Run json = simulate(arguments + QStringList("--json"));
+    QCOMPARE(json.exitCode, 1);
+    const QJsonObject died =
+        QJsonDocument::fromJson(json.out).object()["died"].toArray().at(0).toObject();
+    QVERIFY(died["times"].toInt() >= 1 && died["name"].toString().endsWith(" decision"));
+  }
+
   /// Who won is the same before and after a change of sides.
   void aMatchWithoutOrdersToPlayPrintsAWarning() {
     const Run idle = simulate({"--scenario", "match", "--referee", "published", "--duration", "6"});
@@ -212,7 +229,7 @@ class TestCliSimulate : public QObject {
     QVERIFY(!(moment->robots[0].pose == link::loadScenario("one-robot")->robots[0].pose));
     const Run again = simulate(save);
     QCOMPARE(again.exitCode, 2);
-    QVERIFY(again.err.contains("This file already exists"));
+    QVERIFY(again.err.contains("This file exists; add --force"));
     QCOMPARE(simulate(save + QStringList("--force")).exitCode, 0);
     const Run nowhere = simulate({"--duration", "1", "--save-moment", "/nowhere/moment.json"});
     QCOMPARE(nowhere.exitCode, 2);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What programs say about their command line: help, errors, completion.
+#include <QFile>
+#include <QMap>
 #include <QProcess>
 #include <QRegularExpression>
 
@@ -14,7 +16,7 @@ QByteArray helpOf(const char* program, QStringList words, const char* option = "
   return run.exitCode == 0 ? run.out : QByteArray();
 }
 
-/// Those that a help page lists.
+/// Returns the commands that a help page lists.
 QStringList commandsIn(const QByteArray& help) {
   QStringList names;
   const QString list = QString::fromUtf8(help)
@@ -25,6 +27,25 @@ QStringList commandsIn(const QByteArray& help) {
     if (!name.isEmpty()) names << name;
   }
   return names;
+}
+
+/// The options of a help page with what it says of them, without their defaults.
+QMap<QString, QString> optionsIn(const QByteArray& help) {
+  static const QRegularExpression usual(QStringLiteral(" \\[[^\\]]*\\]$"));
+  QMap<QString, QString> options;
+  QString name;
+  for (const QString& line : QString::fromUtf8(help).split('\n')) {
+    if (line.startsWith(QStringLiteral("  --"))) {
+      name = line.section(' ', 2, 2);
+      options[name] = line.simplified();
+    } else if (!name.isEmpty() && line.startsWith(QString(20, QLatin1Char(' ')))) {
+      options[name] += QLatin1Char(' ') + line.simplified();
+    } else {
+      name.clear();
+    }
+  }
+  for (QString& text : options) text.remove(usual);
+  return options;
 }
 
 }  // namespace
@@ -44,7 +65,9 @@ class TestCliUsage : public QObject {
     row("blackboard dmp", "there is no command \"dmp\"; did you mean \"dump\"?");
     row("simulate --sceario match", "unknown option \"--sceario\"; did you mean \"--scenario\"?");
     row("simulate --xyzzyx", "unknown option \"--xyzzyx\"");
-    row("simulate match", "unexpected argument \"match\"");
+    row("simulat --scenario match", "there is no command \"simulat\"; did you mean \"simulate\"?");
+    row("simulate match",
+        "unexpected argument \"match\"; a scenario is chosen with --scenario match");
     row("simulate --seed x", "--seed must be a whole number, not \"x\"");
     row("simulate --duration", "--duration needs a value (T)");
     row("simulate --match 99", "--match must be from 0 to 45, not 99");
@@ -101,6 +124,32 @@ class TestCliUsage : public QObject {
       const QByteArray name = found.next().captured().toUtf8();
       if (!name.startsWith("--help")) QVERIFY2(all.contains(name), name.constData());
     }
+  }
+
+  /// The studio described them in other words.
+  void programsDescribeAnOptionAlike_data() {
+    QTest::addColumn<QString>("command");
+    QTest::addColumn<int>("least");
+    QTest::newRow("simulate") << "simulate" << 12;
+    QTest::newRow("listen") << "listen" << 12;
+    QTest::newRow("record") << "record" << 24;
+  }
+  void programsDescribeAnOptionAlike() {
+    QFETCH(QString, command);
+    QFETCH(int, least);
+    if (!QFile::exists(QStringLiteral(PITCHBOARD_BIN "/pitchboard"))) QSKIP("there is no studio");
+    const auto studio = optionsIn(helpOf("pitchboard", {}, "--help-all"));
+    const auto options = optionsIn(helpOf("pitchboard-cli", {command}, "--help-all"));
+    // The same names, but other things: a time, a recording.
+    const QStringList others{QStringLiteral("--from"), QStringLiteral("--at"),
+                             QStringLiteral("--live")};
+    int compared = 0;
+    for (auto option = options.begin(); option != options.end(); ++option) {
+      if (!studio.contains(option.key()) || others.contains(option.key())) continue;
+      QCOMPARE(studio[option.key()], option.value());
+      ++compared;
+    }
+    QVERIFY2(compared >= least, QByteArray::number(compared));
   }
 
   void bashCompletes_data() {

@@ -6,8 +6,8 @@
 #include <QSet>
 #include <QtTest>
 
-#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/capi/world_lines.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/experiment/experiment.h>
 #include <robotlink/experiment/run_result.h>
 #include <robotlink/frame/match_event.h>
@@ -92,7 +92,7 @@ class TestDocuments : public QObject {
     row("kind of robot", "scenarios.md", namesOf(robotModels(), itself));
     row("physics model", "scenarios.md", namesOf(sim::physicsModels(), itsName));
     row("rule set", "referee.md", namesOf(refereeRuleSets(), itsName));
-    row("runtime profile", "robot-programs.md", namesOf(builtInRuntimes(), itself));
+    row("runtime profile", "robot-programs.md", {"reference", "own", "published-tree"});
     row("process", "robot-programs.md", namesOf(referenceProcesses(), itsName));
     row("behaviour", "behaviours.md", namesOf(behaviours(), itsName));
     row("experiment", "experiments.md", namesOf(builtInExperiments(), itsName));

@@ -24,8 +24,8 @@ QString problemOf(const QByteArray& text) {
   QByteArray paragraph;
   for (qsizetype i = 3; lines.value(i).startsWith("// "); ++i) paragraph += lines[i].mid(2);
   // Fewer words tell nothing that the name of the file does not.
-  constexpr int leastWords = 6;
-  if (paragraph.simplified().split(' ').size() < leastWords) {
+  constexpr int minWords = 6;
+  if (paragraph.simplified().split(' ').size() < minWords) {
     return QStringLiteral("does not begin with a paragraph that says what it is for");
   }
   return {};

@@ -58,6 +58,16 @@ class TestLayers : public QObject {
     QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
   }
 
+  void roomsPointDown() {
+    QStringList wrong = roomErrors(sources());
+    QVERIFY2(wrong.isEmpty(), qPrintable(wrong.join('\n')));
+    wrong = roomErrors({{"robotlink/robot/models/src/a.cpp", "#include <robotlink/live/b.h>\n"},
+                        {"robotlink/live/include/robotlink/live/b.h", ""}});
+    QCOMPARE(wrong,
+             QStringList{
+                 "robotlink/robot/models/src/a.cpp uses robotlink/live, which is in a room above"});
+  }
+
   void linksPointDown() {
     QVERIFY(cmakeFiles().size() > 30);
     const QStringList wrong = linkErrors(cmakeFiles(), table());

@@ -45,6 +45,7 @@ class TestLiveMatch : public QObject {
     options.bind = {INADDR_LOOPBACK};
     options.portBase = m_number.telemetryPortBase();
     options.refereePort = m_number.refereePort();
+    options.simulated = true;
     link::LiveWatch live(options);
     QTRY_VERIFY(live.take().frame);
     QTRY_VERIFY_WITH_TIMEOUT(live.take().frame->robots.size() == 6, 30000);

@@ -58,8 +58,7 @@ class TestManyMatches : public QObject {
         ports.insert(number.telemetryPortBase() + robot);
         ++allKeys, ++allPorts;
       }
-      for (const int port :
-           {number.drawingPort(), number.refereePort(), number.refereeAnswerPort()}) {
+      for (const int port : {number.drawingPort(), number.refereePort()}) {
         ports.insert(port);
         ++allPorts;
       }

@@ -47,7 +47,7 @@ class Rows : public RowSink {
   void append(GroupId group, const RowView& row) override {
     const std::lock_guard lock(m_mutex);
     const GroupInfo& info = m_groups[group];
-    if (info.attributes.contains("link")) return;
+    if (!factsOf(info).linkOf.empty()) return;
     const QString name = QString::fromStdString(info.name);
     ++counts[name];
     Values& values = last[name];
@@ -190,13 +190,13 @@ class TestOneCapture : public QObject {
     QTRY_COMPARE(studio.details().unknownReferee, std::uint64_t{1});
     QTRY_VERIFY(rows->kept->counts.contains("B9"));
     const auto isShown = [&](std::size_t robots) {
-      return studio.frame() && studio.frame()->robots.size() == robots && studio.frame()->referee;
+      return studio.frame() && studio.frame()->robots.size() == robots && studio.frame()->game;
     };
     QTRY_VERIFY(isShown(6));
     const ui::FramePtr frame = studio.frame();
-    const link::LiveDetails details = studio.details();
-    // Its last events may wait for the next frame.
+    // Its last events and counts may wait for the next frame.
     QTRY_VERIFY(studio.frame()->serial > frame->serial + 3);
+    const link::LiveDetails details = studio.details();
     for (const auto& args : given) {
       for (const auto& event : args[0].value<std::vector<link::MatchEvent>>()) {
         const SessionEvent words = link::sessionEvent(event);

@@ -8,26 +8,47 @@ Blocks of the page are carried out in their order, in an empty folder:
   ```LANGUAGE NAME  a file of this name, whatever the language; commands behind it can use it
   ```json, ```python, ```cpp, ```c  without a name: must be read by a JSON parser, Python, the compiler
 
+On a page with the line <!-- notebook -->, blocks of python run, too, one after the other in one interpreter.
+
 A command whose line ends with `# until Ctrl+C` is interrupted after three seconds. `pitchboard` opens its window without
 a screen and closes it after a second. Folders of this repository that a page names are there.
 
 A table between `<!-- options COMMAND -->` and `<!-- end -->` lists what `pitchboard-cli COMMAND --help-all` does;
 PITCHBOARD_WRITE_DOCS=1 writes these tables into the page. docs/cli.md has a table for every command.
 
+Readers try twice: on tutorials and on pages that begin with match.mcap, each block of commands runs twice, and has to print
+the same.
+
 A block that cannot run here says so where it begins, with the reason: ```sh not-run: it needs a robot
 NOT_RUN has their number for each page, so that each new one is a decision.
 """
+import fcntl
 import json
 import os
 import pathlib
 import re
+import socket
+import struct
 import subprocess
 import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-NOT_RUN = {"agent": 4, "building": 2, "install": 1, "learning": 1, "performance": 1, "readme": 1, "referee": 1, "sessions": 1}
+NOT_RUN = {"agent": 4, "building": 2, "continuous-integration": 1, "install": 2, "learning": 1, "performance": 1, "readme": 2, "referee": 1, "sessions": 1}
 REPOSITORY = ("tests/data", "docs/examples", "docs/recipes", "resources")
+NOTEBOOK = """
+import contextlib, io, json, sys, traceback
+names = {"__name__": "__main__"}
+for line in sys.stdin:
+    out, failed = io.StringIO(), False
+    with contextlib.redirect_stdout(out):
+        try:
+            exec(compile(json.loads(line), "page", "exec"), names)
+        except Exception:
+            failed = True
+            traceback.print_exc(file=out)
+    print(json.dumps([failed, out.getvalue()]), flush=True)
+"""
 STUDIO = """#!/bin/bash
 # The studio as a page starts it, without a screen: it takes a picture of its window after a second and ends.
 for word in "$@"; do
@@ -67,12 +88,36 @@ def check(language, body):
     elif language in ("c", "cpp"):
         standard = {"c": "-std=c11", "cpp": "-std=c++20"}[language]
         subprocess.run(["g++" if language == "cpp" else "gcc", standard, "-x", {"c": "c", "cpp": "c++"}[language],
-                        "-D_DEFAULT_SOURCE", "-fsyntax-only", "-I", str(ROOT / "robotlink/capi/include"), "-"],
+                        "-D_DEFAULT_SOURCE", "-fsyntax-only", "-I", str(ROOT / "robotlink/laboratory/capi/include"), "-"],
                        input=body, text=True, check=True)
     elif language not in ("text", "ini", ""):
         raise ValueError(f"unknown kind of block: {language}")
     elif re.search(r"^(\$ )?(\./\w|pitchboard(-robot|-agent)? -|pitchboard-cli \w|scripts/|g\+\+|python3 )", body, re.M) and language == "":
         raise ValueError("commands belong into a block that begins with ```sh")
+
+
+def commands_of(workflow):
+    """Every command that a workflow of GitHub or GitLab runs, without where its output goes."""
+    if isinstance(workflow, dict):
+        for key, value in workflow.items():
+            if key in ("run", "script"):
+                yield from (line.split(" >>")[0] for line in (value.splitlines() if isinstance(value, str) else value))
+            else:
+                yield from commands_of(value)
+    elif isinstance(workflow, list):
+        for value in workflow:
+            yield from commands_of(value)
+
+
+def check_workflow(body, text):
+    """A workflow runs what the page runs, too."""
+    import yaml  # Debian: python3-yaml
+    commands = list(commands_of(yaml.safe_load(body)))
+    if not commands:
+        raise ValueError("this workflow runs nothing")
+    for command in commands:
+        if not re.search(r"^```sh\n(?:(?!^```).*\n)*?" + re.escape(command) + "$", text, re.M):
+            raise ValueError(f"no block of the page runs what this workflow runs: {command}")
 
 
 def helped(programs, command, option="--help-all"):
@@ -118,7 +163,22 @@ def check_options(page, text, programs):
     return right
 
 
+def repeated(name, text):
+    """Whether the blocks of a page run twice."""
+    return name.startswith("tutorial") or "match.mcap" in text
+
+
+def raise_loopback():
+    """A network of its own (CMakeLists.txt) begins without 127.0.0.1."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as any_socket:
+        request = struct.pack("16sH14x", b"lo", 0)
+        flags = struct.unpack_from("H", fcntl.ioctl(any_socket, 0x8913, request), 16)[0]  # SIOCGIFFLAGS
+        if not flags & 1:  # IFF_UP
+            fcntl.ioctl(any_socket, 0x8914, struct.pack("16sH14x", b"lo", flags | 1))  # SIOCSIFFLAGS
+
+
 def main(page, programs):
+    raise_loopback()
     name = pathlib.Path(page).stem
     text = pathlib.Path(page).read_text(encoding="utf-8")
     text = check_options(page, text, programs)
@@ -127,6 +187,7 @@ def main(page, programs):
         studio = pathlib.Path(own, "pitchboard")
         studio.write_text(STUDIO.format(studio=pathlib.Path(programs, "pitchboard"), folder=own))
         studio.chmod(0o755)
+        pathlib.Path(own, "python3").symlink_to(sys.executable)  # Debian's, which has numpy
         for part in REPOSITORY:
             if part in text:
                 pathlib.Path(folder, part).parent.mkdir(parents=True, exist_ok=True)
@@ -134,7 +195,11 @@ def main(page, programs):
         environment = dict(os.environ, PATH=os.pathsep.join([own, programs, os.environ["PATH"]]), LC_ALL="C.UTF-8",
                            QT_QPA_PLATFORM="offscreen", LIBRARY_PATH=str(pathlib.Path(programs).parent / "lib"),
                            LD_LIBRARY_PATH=str(pathlib.Path(programs).parent / "lib"),
-                           CPATH=str(ROOT / "robotlink/capi/include"))
+                           CPATH=str(ROOT / "robotlink/laboratory/capi/include"), PYTHONDONTWRITEBYTECODE="1",
+                           PYTHONPATH=str(ROOT / "robotlink/laboratory/capi/python"),
+                           PITCHBOARD_SIM_LIBRARY=str(pathlib.Path(programs).parent / "lib/libpitchboard_sim.so.1"))
+        notebook = subprocess.Popen([sys.executable, "-c", NOTEBOOK], cwd=folder, env=environment, text=True,
+                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE) if "<!-- notebook -->" in text else None
         for block in re.finditer(r"^( *)```(\w*)(?: ([^\n]+))?\n(.*?)^ *```$", text, re.M | re.S):
             indent, language, note, body = block.groups()
             body = re.sub("^" + indent, "", body, flags=re.M)
@@ -147,23 +212,38 @@ def main(page, programs):
                 file = pathlib.Path(folder, note)
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_text(body, encoding="utf-8")
+                if language == "yaml":
+                    check_workflow(body, text)
             elif language == "sh":
-                run = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", interrupted(body)], cwd=folder,
-                                     env=environment, capture_output=True, text=True, timeout=240,
-                                     stdin=subprocess.DEVNULL)
-                printed = run.stdout.splitlines()
+                printed = []
+                for attempt in ("", "the second time, ")[:2 if repeated(name, text) else 1]:
+                    run = subprocess.run(["bash", "-e", "-o", "pipefail", "-c", interrupted(body)], cwd=folder,
+                                         env=environment, capture_output=True, text=True, timeout=240,
+                                         stdin=subprocess.DEVNULL)
+                    printed.append(run.stdout.splitlines())
+                    if run.returncode:
+                        sys.exit(f"{page}:{line}: {attempt}exit code {run.returncode}\n{body}{run.stdout}{run.stderr}")
                 ran += 1
-                if run.returncode:
-                    sys.exit(f"{page}:{line}: exit code {run.returncode}\n{body}{run.stdout}{run.stderr}")
+            elif language == "python" and notebook:
+                notebook.stdin.write(json.dumps(body) + "\n")
+                notebook.stdin.flush()
+                failed, said = json.loads(notebook.stdout.readline())
+                if failed:
+                    sys.exit(f"{page}:{line}: {body}{said}")
+                printed, ran = [said.splitlines()], ran + 1
             elif language == "text":
                 compared += 1
-                if not matches(body.splitlines(), printed):
-                    sys.exit(f"{page}:{line}: expected\n{body}but it printed\n" + "\n".join(printed))
+                for lines in printed:
+                    if not matches(body.splitlines(), lines):
+                        sys.exit(f"{page}:{line}: expected\n{body}but it printed\n" + "\n".join(lines))
             else:
                 try:
                     check(language, body)
                 except (ValueError, SyntaxError, subprocess.CalledProcessError) as error:
                     sys.exit(f"{page}:{line}: {error}\n{body}")
+        if notebook:
+            notebook.stdin.close()
+            notebook.wait(60)
     if not_run != NOT_RUN.get(name.lower(), 0):
         sys.exit(f"{page}: {not_run} blocks are not run, and {sys.argv[0]} says {NOT_RUN.get(name.lower(), 0)}")
     if name.startswith("tutorial") and not (ran and compared):

@@ -6,10 +6,10 @@
 #include <QtTest>
 #include <csignal>
 
-#include <robotlink/advisor/reference_processes.h>
+#include <base/game.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
-#include <simcore/world/game_state.h>
+#include <robotlink/cognition/process_registry.h>
 #include <telemetry/wire/gamecontroller.h>
 
 #include "../support/segment_keys.h"
@@ -229,7 +229,7 @@ class TestRefereeObeyed : public QObject {
       return board->read(m_variables.comReferee) != 0;
     };
     QTRY_VERIFY(hasReceived());
-    QTRY_COMPARE(board->read(kind), reported ? static_cast<int>(sim::SetPlay::CornerKick) : 77);
+    QTRY_COMPARE(board->read(kind), reported ? static_cast<int>(SetPlay::CornerKick) : 77);
     QCOMPARE(board->read(ours), reported ? 1 : 0);
     management.terminate();
     QVERIFY(management.waitForFinished());

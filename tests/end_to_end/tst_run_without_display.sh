@@ -70,5 +70,13 @@ expect 2 "error:" nothing.mcap
 expect 2 "there is no display, and Live needs a window; pitchboard-cli listen" --live
 expect 2 "pitchboard-cli record" --record other.mcap
 expect 2 "--theme needs a window" --theme dark
+# The list is the program's, whatever comes to it.
+for option in $("$PITCHBOARD_BIN/pitchboard" --option-list pitchboard | sed -n 's/ .*Live needs a window.*//p'); do
+  expect 2 "Live needs a window" "$option" 1
+done
+expect 2 "Live needs a window" --variables-port-base=0
+expect 2 "Live needs a window" --attach 100
+expect 0 "Score " --cognition inline --keep-speed --duration 1 --scenario one-robot
+expect_picture "an option without a value"
 expect 2 "error:" --no-such-option
 exit $((failures > 0))

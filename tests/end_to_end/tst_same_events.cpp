@@ -68,7 +68,7 @@ class TestSameEvents : public QObject {
             .value();
     std::vector<MatchEvent> events;
     const auto take = [&] {
-      for (MatchEvent& event : runner->takeEvents()) events.push_back(std::move(event));
+      for (MatchEvent& event : runner->drainEvents()) events.push_back(std::move(event));
       return &events;
     };
     for (const char* script : {"exit 0", "echo ouch; exit 3"}) {
@@ -95,7 +95,7 @@ class TestSameEvents : public QObject {
     const auto goal = std::find_if(events.begin(), events.end(),
                                    [](const auto& event) { return event.kind == Kind::Goal; });
     QVERIFY(goal->side == Side::Left);
-    QCOMPARE(goal->colour, std::string("blue"));
+    QCOMPARE(goal->colour, std::optional(TeamColor::Blue));
     QCOMPARE(goal->score, (sim::Score{1, 0}));
     compare(path, events);
   }

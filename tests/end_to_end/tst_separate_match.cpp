@@ -6,7 +6,6 @@
 #include <csignal>
 #include <map>
 
-#include <robotlink/cognition/advice.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -78,7 +77,7 @@ class TestSeparateMatch : public QObject {
   void theStateIsThatOfAMatchInside_data() {
     QTest::addColumn<QString>("name");
     QTest::newRow("striker, supporter, keeper") << "match-3v3";
-    QTest::newRow("blue thinks ahead") << "advised";
+    QTest::newRow("blue has an advisor") << "advised";
     QTest::newRow("as published") << "scenario-1";
   }
   void theStateIsThatOfAMatchInside() {
@@ -95,9 +94,13 @@ class TestSeparateMatch : public QObject {
       QCOMPARE(outside.simulation().hash(), inside.simulation().hash());
     }
     QVERIFY(inside.simulation().snapshot().robots[0].statistics.distanceWalked > 0.0);
-    for (const IntVar word : AdvisorVariables().learned) {  // of the opponents
-      QCOMPARE(outside.blackboard(RobotId{1})->read(word),
-               inside.blackboard(RobotId{1})->read(word));
+    for (int i = 1; i <= 4; ++i) {  // what was learned of the opponents
+      const IntVar word =
+          *VariableCatalog::extended().intVar("ADVISOR_EVIDENCE" + std::to_string(i));
+      for (const sim::RobotSnapshot& robot : inside.simulation().snapshot().robots) {
+        QCOMPARE(outside.blackboard(robot.identity.id)->read(word),
+                 inside.blackboard(robot.identity.id)->read(word));
+      }
     }
   }
 
@@ -157,7 +160,7 @@ class TestSeparateMatch : public QObject {
     }
     QCOMPARE(outside.simulation().hash(), inside.simulation().hash());
     std::vector<MatchEvent> events;
-    outside.takeEvents(events);
+    outside.drainEvents(events);
     const auto count = [&events](MatchEventKind kind) {
       return std::count_if(events.begin(), events.end(),
                            [kind](const MatchEvent& event) { return event.kind == kind; });
@@ -216,7 +219,7 @@ class TestSeparateMatch : public QObject {
     ::kill(stopped, SIGSTOP);
     for (int i = 0; i < tickRate; ++i) match.tick();
     std::vector<MatchEvent> events;
-    match.takeEvents(events);
+    match.drainEvents(events);
     const auto notResponding = std::find_if(
         events.begin(), events.end(),
         [](const MatchEvent& event) { return event.kind == MatchEventKind::ProcessNotResponding; });

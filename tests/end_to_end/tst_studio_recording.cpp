@@ -98,7 +98,7 @@ class TestStudioRecording : public QObject {
     if (way == "SIGTERM")
       studio.terminate();
     else
-      studio.write(way + "\n");
+      studio.write(way + "\nother button\n");  // it asks first, because it records
     QVERIFY(studio.waitForFinished(longWait));
     const QByteArray words = studio.readAllStandardError();
     QVERIFY2(studio.exitStatus() == QProcess::NormalExit, words);

@@ -9,9 +9,7 @@
 #include <QProcess>
 #include <QTemporaryDir>
 #include <QtTest>
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "../support/guide_programs.h"
 #include "../support/segment_keys.h"
@@ -34,10 +32,10 @@ class TestUnchangedProcess : public QObject {
            more + "}]}";
   }
 
-  static ProcessSummary firstProgram(MatchRunner& runner) {
+  static ProcessStatus firstProgram(MatchRunner& runner) {
     const auto frame = runner.latest();
     const auto all = frame->robots[0].processes();
-    return all.empty() ? ProcessSummary{} : all.front();
+    return all.empty() ? ProcessStatus{} : all.front();
   }
 
   /// What is loaded into the first program of the match, and how it gets its time.
@@ -78,13 +76,16 @@ class TestUnchangedProcess : public QObject {
     return std::move(*runner);
   }
 
-  static void waitsAsLong(MatchRunner& runner, const std::vector<std::string>& lines) {
+  /// Every line but the first comes a second after the one before it. A busy computer may print, or
+  /// collect, a line late, so the lines are compared with the start, before which nothing waited.
+  static void waitsAsLong(MatchRunner& runner, const QElapsedTimer& sinceStart,
+                          const std::vector<std::string>& lines) {
     std::vector<std::string> reported;
-    std::vector<double> times;  // of the match
+    std::vector<double> times;
     const auto isDone = [&] {
-      for (const LogLine& line : runner.takeLog()) {
+      for (const LogLine& line : runner.drainLog()) {
         reported.push_back(line.text);
-        times.push_back(line.time);
+        times.push_back(1e-3 * double(sinceStart.elapsed()));
       }
       return reported.size() >= lines.size();
     };
@@ -93,8 +94,7 @@ class TestUnchangedProcess : public QObject {
                               60'000);
     QCOMPARE(reported, lines);
     for (std::size_t i = 1; i < times.size(); ++i) {
-      const double waited = times[i] - times[i - 1];
-      QVERIFY2(waited > 0.3 && waited < 20.0, qPrintable(QString::number(waited)));
+      QVERIFY2(times[i] > 0.99 * double(i), qPrintable(QString::number(times[i])));
     }
   }
 
@@ -118,7 +118,7 @@ class TestUnchangedProcess : public QObject {
   void walksToTheBallAndKicksIt() {
     QFETCH(QString, physics);
     QFETCH(QStringList, program);
-    constexpr double speed = 8.0;
+    constexpr double cycle = 0.25;  // s of the match
     Scenario scenario;
     scenario.settings.physics = physics.toStdString();
     ScenarioRobot robot;
@@ -135,34 +135,39 @@ class TestUnchangedProcess : public QObject {
     {
       auto match = SimulatedMatch::create(scenario, options);
       QVERIFY2(match, match ? "" : match.error().text().c_str());
-      match->tick();  // vision has spoken before the process decides for the first time
+      // Vision has spoken before the process decides for the first time.
+      for (int tick = 0; tick < scenario.settings.tickRate; ++tick) match->tick();
 
       QProcess process;
       process.setProcessChannelMode(QProcess::ForwardedChannels);
-      process.start(program.first(), program.mid(1) + QStringList{QString::number(m_base + 100),
-                                                                  QString::number(0.25 / speed)});
+      process.start(program.first(),
+                    program.mid(1) + QStringList{QString::number(m_base + 100), "0.01"});
       QVERIFY(process.waitForStarted());
 
-      // A late tick is not made up for: the process would be left behind on a busy computer.
-      using Time = std::chrono::steady_clock;
-      const auto tick = std::chrono::duration_cast<Time::duration>(
-          std::chrono::duration<double>(1 / (scenario.settings.tickRate * speed)));
-      QElapsedTimer limit;
-      limit.start();
+      // The match goes on when the process has decided, however long that takes on a busy computer.
+      auto board = SystemVSegments::open(m_base + 100, AttachMode::AttachOnly);
+      QVERIFY(board);
+      const IntVar working = *VariableCatalog::published().intVar("DECISION_WORKING");
+      const auto hasDecided = [&] { return board->read(working) != 0; };
       bool kicked = false;
       double ballPath = 0.0, walkedAtKick = 0.0;
-      while (limit.elapsed() < 90'000 && !(kicked && ballPath > 0.3)) {
-        const auto next = Time::now() + tick;
-        match->tick();
-        for (const sim::Event& event : match->simulation().events()) {
-          if (event.kind != sim::EventKind::Kick || kicked) continue;
-          kicked = true;
-          QCOMPARE(event.robot, RobotId{1});
-          walkedAtKick = match->simulation().state().statistics.front().distanceWalked;
+      for (double time = 0.0; time < 120.0 && !(kicked && ballPath > 0.3); time += cycle) {
+        for (int decisions = 0; decisions < 2;
+             ++decisions) {  // the first one may have begun before
+          board->write(working, 0);
+          QTRY_VERIFY(hasDecided());
+        }
+        for (int tick = 0; tick < cycle * scenario.settings.tickRate; ++tick) {
+          match->tick();
+          for (const sim::Event& event : match->simulation().events()) {
+            if (event.kind != sim::EventKind::Kick || kicked) continue;
+            kicked = true;
+            QCOMPARE(event.robot, RobotId{1});
+            walkedAtKick = match->simulation().state().statistics.front().distanceWalked;
+          }
         }
         const Point ball = match->simulation().snapshot().ball;
         ballPath = std::hypot(ball.x, ball.y);
-        std::this_thread::sleep_until(next);
       }
       QVERIFY2(kicked, "the robot did not kick");
       QVERIFY2(ballPath > 0.3, "the ball did not move");
@@ -184,7 +189,7 @@ class TestUnchangedProcess : public QObject {
     runner->setPaused(false);
     double walkedAtKick = 0.0, ballPath = 0.0;
     const auto kicked = [&] {
-      for (const MatchEvent& event : runner->takeEvents()) {
+      for (const MatchEvent& event : runner->drainEvents()) {
         if (event.kind != MatchEventKind::Kick || walkedAtKick > 0.0) continue;
         walkedAtKick = runner->latest()->robots[0].statistics.distanceWalked;
       }
@@ -227,15 +232,18 @@ class TestUnchangedProcess : public QObject {
   void timedWaitsReturnAtRealTime() {
     QFETCH(QStringList, program);
     QFETCH(std::vector<std::string>, lines);
+    QElapsedTimer sinceStart;
+    sinceStart.start();
     {
       const auto real = startWith(profileOf(program, R"(, "clock": "real")"), false);
       QTRY_VERIFY(firstProgram(*real).pid != 0);
       QCOMPARE(timeVariables(*real), QByteArray());
-      waitsAsLong(*real, lines);
+      waitsAsLong(*real, sinceStart, lines);
     }
+    sinceStart.start();
     const auto match = startWith(profileOf(program), false);
     QTRY_VERIFY(timeVariables(*match).contains("libpitchboard_time"));
-    waitsAsLong(*match, lines);
+    waitsAsLong(*match, sinceStart, lines);
   }
   // A program that is started at ×1 goes along with every later speed.
   void aProgramStartedAtOneFollowsLater() {
@@ -245,7 +253,7 @@ class TestUnchangedProcess : public QObject {
         false);
     std::vector<std::pair<double, double>> times;  // of the match, of the program
     const auto hasLines = [&](std::size_t count) {
-      for (const LogLine& line : runner->takeLog()) {
+      for (const LogLine& line : runner->drainLog()) {
         times.emplace_back(line.time, std::stod(line.text));
       }
       return times.size() >= count;
@@ -254,20 +262,32 @@ class TestUnchangedProcess : public QObject {
     const pid_t pid = firstProgram(*runner).pid;
     runner->setSpeed(8.0);
     times.clear();
-    QTRY_VERIFY(hasLines(50));
-    const double match = times.back().first - times.front().first;
-    const double program = times.back().second - times.front().second;
-    // Lines are collected 20 times a second, 0.4 s of the match.
-    QVERIFY2(std::abs(match - program) < 0.05 * match + 0.4,
-             qPrintable(QStringLiteral("%1 s, its clock %2 s").arg(match).arg(program)));
+    // A line is collected late on a busy computer, and never early: the least by which the match is
+    // ahead of the program is the same in the first lines and in the last ones.
+    double apart = 0.0;
+    const auto areTogether = [&] {
+      if (!hasLines(50)) return false;
+      const auto least = [](auto begin, auto end) {
+        double ahead = 1e9;
+        for (auto line = begin; line != end; ++line)
+          ahead = std::min(ahead, line->first - line->second);
+        return ahead;
+      };
+      const auto middle = times.begin() + std::ptrdiff_t(times.size() / 2);
+      apart = least(middle, times.end()) - least(times.begin(), middle);
+      // Lines are collected 20 times a second, 0.4 s of the match, and a clock that is behind
+      // catches up.
+      return std::abs(apart) < 0.05 * (times.back().first - times.front().first) + 0.4;
+    };
+    QTRY_VERIFY2(areTogether(), qPrintable(QString::number(apart)));
     QCOMPARE(firstProgram(*runner).pid, pid);
-    QCOMPARE(firstProgram(*runner).whyRealTime, std::string());
-    for (const MatchEvent& event : runner->takeEvents()) {
+    QCOMPARE(firstProgram(*runner).clock, link::ProcessClock::Match);
+    for (const MatchEvent& event : runner->drainEvents()) {
       QVERIFY(event.kind != MatchEventKind::ProcessRealTime);
     }
   }
 
-  // Who uses real time has nothing loaded, and is named as soon as the match does not.
+  // A program with real time has nothing loaded, and is named once the match leaves real time.
   void whoKeepsRealTimeIsNamed() {
     const QString sentence =
         R"(B1 decision uses real time: its runtime profile says "clock": "real")";
@@ -277,7 +297,7 @@ class TestUnchangedProcess : public QObject {
     QCOMPARE(timeVariables(*runner), QByteArray());
     QStringList given;
     const auto isAnnounced = [&] {
-      for (const MatchEvent& event : runner->takeEvents()) {
+      for (const MatchEvent& event : runner->drainEvents()) {
         if (event.kind != MatchEventKind::ProcessRealTime) continue;
         given << QString::fromStdString(sentenceOf(event));
       }
@@ -308,7 +328,7 @@ class TestUnchangedProcess : public QObject {
         false, MatchRunner::unlimitedSpeed, 60.0);
     QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 60'000);
     QVERIFY(runner->latest()->robots[0].statistics.distanceWalked > 0.1);
-    for (const MatchEvent& event : runner->takeEvents()) {
+    for (const MatchEvent& event : runner->drainEvents()) {
       QVERIFY2(event.kind != MatchEventKind::ProcessNotAttached, sentenceOf(event).c_str());
     }
   }
@@ -358,7 +378,7 @@ class TestUnchangedProcess : public QObject {
       Drill drill;
       double began = 0.0;
       const auto isDone = [&] {
-        for (const LogLine& line : runner->takeLog()) {
+        for (const LogLine& line : runner->drainLog()) {
           if (line.text == "began") began = line.time;
           if (line.text != "done") continue;
           drill.seconds = line.time - began;
@@ -370,23 +390,27 @@ class TestUnchangedProcess : public QObject {
       if (!QTest::qWaitFor(isDone, 60'000)) qWarning("the drill does not end");
       return drill;
     };
-    // One of three may meet a busy moment of the computer.
-    std::array<std::array<double, 3>, 2> walked{}, seconds{};
-    for (std::size_t i = 0; i < 3; ++i) {
+    // A busy computer lets a step last longer, and none shorter: the shortest of several drills.
+    constexpr int maxAttempts = 6;
+    std::array<Drill, 2> shortest{Drill{1e9, 1e9}, Drill{1e9, 1e9}};  // at ×1, at ×8
+    const auto differ = [&shortest](double Drill::*value) {
+      return std::abs(shortest[1].*value / shortest[0].*value - 1.0);
+    };
+    // Lines are collected 20 times a second, 0.4 s of the match.
+    const auto areAlike = [&] {
+      return differ(&Drill::walked) < 0.05 && differ(&Drill::seconds) < 0.05 + 0.4 / 12.0;
+    };
+    for (int attempt = 0; attempt < maxAttempts && !(attempt > 0 && areAlike()); ++attempt) {
       for (const std::size_t fast : {0, 1}) {
         const Drill drill = play(fast == 1 ? 8.0 : 1.0);
-        walked[fast][i] = drill.walked;
-        seconds[fast][i] = drill.seconds;
+        shortest[fast].walked = std::min(shortest[fast].walked, drill.walked);
+        shortest[fast].seconds = std::min(shortest[fast].seconds, drill.seconds);
       }
     }
-    const auto differ = [](std::array<std::array<double, 3>, 2>& values) {
-      for (auto& all : values) std::ranges::sort(all);
-      return std::abs(values[1][1] / values[0][1] - 1.0);
-    };
-    QVERIFY(walked[0][1] > 0.5);
-    QVERIFY2(differ(walked) < 0.05, qPrintable(QString::number(differ(walked))));
-    // Lines are collected 20 times a second, 0.4 s of the match.
-    QVERIFY2(differ(seconds) < 0.05 + 0.4 / 12.0, qPrintable(QString::number(differ(seconds))));
+    QVERIFY(shortest[0].walked > 0.5);
+    QVERIFY2(areAlike(), qPrintable(QStringLiteral("walked %1, seconds %2")
+                                        .arg(differ(&Drill::walked))
+                                        .arg(differ(&Drill::seconds))));
   }
 };
 

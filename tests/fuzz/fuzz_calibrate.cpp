@@ -51,7 +51,7 @@ constexpr std::array<Variable, 24> variables{{
 telemetry::GroupInfo robotGroup() {
   telemetry::GroupInfo group;
   group.name = "B1";
-  group.attributes["team"] = "blue";
+  group.robot.emplace().team = TeamColor::Blue;
   for (const Variable& variable : variables) {
     auto& column = group.columns.emplace_back();
     column.name = variable.name;

@@ -13,7 +13,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   if (!read) return 0;
   const auto now = zero + std::chrono::seconds(15);
   const telemetry::TeamStatus status = read->state.monitor.status(now);
-  if (status.robots.size() > read->options.team.mostRobots()) std::abort();
+  if (status.robots.size() >
+      read->options.team.maxRobots() + telemetry::MonitorOptions::ordinaryRobots)
+    std::abort();
   const link::MatchFrame frame = read->state.frame(read->options, status, 15.0);
   if (frame.robots.size() != status.robots.size()) std::abort();
   const auto again = link::LiveState::read(read->state.text(read->options, 15.0, zero), zero);

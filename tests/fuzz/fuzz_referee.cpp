@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     return 0;
   }
   if (const auto* state = std::get_if<RefereeState>(&*packet)) {
-    tracker.accept(*state, {{1}, 3838}, now);
+    (void)tracker.accept(*state, {{1}, 3838}, now);
     for (const RefereeTeam& team : state->teams) {
       for (const RefereePlayer& player : team.players()) {
         if (penaltyName(*state, player.penalty).empty()) std::abort();

@@ -7,13 +7,13 @@
 #include <memory>
 #include <vector>
 
-#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/cognition/cognition_debug.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/expression/expression.h>
 #include <telemetry/wire/sender_filter.h>
 
-#include "opponent_file.h"
+#include "soccer/aim_habit.h"
 
 using namespace pitchboard;
 
@@ -79,8 +79,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   }
   cognitionDebug(text);
   teamMessage(text);
-  if (const auto learned = link::opponentsFromJson(text, "fuzz")) {
-    const auto again = link::opponentsFromJson(link::opponentsToJson(*learned), "again");
+  if (const auto learned = link::habitFromJson(text, "fuzz")) {
+    const auto again = link::habitFromJson(link::habitToJson(*learned), "again");
     if (!again || !(*again == *learned)) std::abort();
   }
   return 0;

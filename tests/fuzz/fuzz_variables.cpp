@@ -14,7 +14,7 @@ using namespace pitchboard::telemetry;
 namespace {
 
 constexpr std::size_t budget = std::size_t{16} << 20;
-/// The newest rows of each group: mostRobots groups of at most maxVariables columns.
+/// The newest rows of each group: maxRobots groups of at most maxVariables columns.
 constexpr std::size_t above = std::size_t{256} << 20;
 constexpr std::string_view message = " 450 300 0 9.5 80 10 1 1 1 1 1 8 0.1 189 OUT";
 
@@ -45,8 +45,7 @@ struct Match {
   }
 
   void check() {
-    const link::MatchFrame frame = pipeline.frame(now);
-    if (rows->store->refusedRows() != 0) std::abort();
+    const link::MatchFrame frame = pipeline.advance(now);
     if (rows->store->memoryBytes() > budget + above) std::abort();
     const link::LiveDetails details = pipeline.details(now);
     if (details.sent.size() > link::SentBoards::maxRobots) std::abort();

@@ -5,6 +5,7 @@
 #include <QProcess>
 #include <QtTest>
 
+#include <telemetry/session/session_export.h>
 #include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
@@ -46,13 +47,13 @@ struct Output {
   int code = -1;
 };
 
-Output readOfficially(const std::string& path) {
+Output run(const QString& name, const QStringList& arguments) {
   QProcess node;
   // The packages are found beside the script, so it runs as a copy in their folder.
-  const QString script = QStringLiteral(MCAP_READERS "/read_session.mjs");
+  const QString script = QStringLiteral(MCAP_READERS "/") + name;
   QFile::remove(script);
-  QFile::copy(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/mcap_readers/read_session.mjs"), script);
-  node.start("node", {script, QString::fromStdString(path)});
+  QFile::copy(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/mcap_readers/") + name, script);
+  node.start("node", QStringList{script} + arguments);
   Output out;
   if (!node.waitForFinished(100'000)) {
     out.error = node.errorString().toUtf8();
@@ -62,6 +63,21 @@ Output readOfficially(const std::string& path) {
   out.error = node.readAllStandardError();
   out.lines = node.readAllStandardOutput().trimmed().split('\n');
   return out;
+}
+
+Output readOfficially(const std::string& path) {
+  return run("read_session.mjs", {QString::fromStdString(path)});
+}
+
+QByteArray exported(const std::string& path, ExportFormat format) {
+  const auto reader = SessionReader::open(path);
+  QByteArray text;
+  const auto done = exportText(*reader, format, {}, [&](std::string_view part) {
+    text.append(part.data(), static_cast<qsizetype>(part.size()));
+    return true;
+  });
+  if (!done) qFatal("%s", done.error().text().c_str());
+  return text;
 }
 
 QList<QByteArray> ofKind(const QList<QByteArray>& lines, const QByteArray& kind) {
@@ -171,6 +187,66 @@ class TestMcapReaders : public QObject {
     auto first = m_rows;
     first.resize(static_cast<std::size_t>(rows.size()));
     QVERIFY(rows == expected(first));
+  }
+
+  /// The official writer can leave messages in any order, and much out of the summary.
+  void rewritten_data() {
+    QTest::addColumn<QStringList>("how");
+    QTest::newRow("topic by topic") << QStringList{"topics"};
+    QTest::newRow("backwards") << QStringList{"backwards"};
+    QTest::newRow("without chunks") << QStringList{"topics", "useChunks"};
+    QTest::newRow("without channels in the summary") << QStringList{"topics", "repeatChannels"};
+    QTest::newRow("without schemas in the summary") << QStringList{"topics", "repeatSchemas"};
+    QTest::newRow("without metadata in the summary") << QStringList{"topics", "useMetadataIndex"};
+    QTest::newRow("without statistics") << QStringList{"topics", "useStatistics"};
+    QTest::newRow("without a summary")
+        << QStringList{"backwards",     "repeatChannels",   "repeatSchemas",    "useStatistics",
+                       "useChunkIndex", "useMetadataIndex", "useSummaryOffsets"};
+  }
+  void rewritten() {
+    QFETCH(QStringList, how);
+    const std::string path = m_folder.filePath("rewritten.mcap").toStdString();
+    const Output out =
+        run("rewrite_session.mjs",
+            QStringList{QString::fromStdString(m_path), QString::fromStdString(path)} + how);
+    QVERIFY2(out.code == 0, out.error.constData());
+    const auto reader = SessionReader::open(path);
+    QVERIFY2(reader->notes().empty(), reader->notes().empty() ? "" : reader->notes()[0].c_str());
+    QVERIFY(reader->complete() && !reader->isForeign());
+    QVERIFY(exported(path, ExportFormat::CsvWide) == exported(m_path, ExportFormat::CsvWide));
+    QCOMPARE(exported(path, ExportFormat::CsvWide).count('\n'), 601);
+  }
+
+  /// A file of another program is that, whatever the program left out, and not damaged.
+  void ofAnotherProgram_data() {
+    QTest::addColumn<QStringList>("leftOut");
+    QTest::newRow("everything") << QStringList{};
+    QTest::newRow("without chunks") << QStringList{"useChunks"};
+    QTest::newRow("without channels in the summary") << QStringList{"repeatChannels"};
+    QTest::newRow("without a summary") << QStringList{
+        "repeatChannels", "repeatSchemas", "useStatistics", "useChunkIndex", "useSummaryOffsets"};
+  }
+  void ofAnotherProgram() {
+    QFETCH(QStringList, leftOut);
+    const std::string path = m_folder.filePath("foreign.mcap").toStdString();
+    const Output out =
+        run("rewrite_session.mjs",
+            QStringList{QString::fromStdString(m_path), QString::fromStdString(path), "foreign"} +
+                leftOut);
+    QVERIFY2(out.code == 0, out.error.constData());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader->isForeign() && !reader->ours());
+    QVERIFY(reader->check() && reader->complete() && !reader->isDamaged());
+    QCOMPARE(reader->notes().size(), 1U);
+    QVERIFY(reader->notes()[0].find("libmcap 1.1.0") != std::string::npos);
+    const McapContents& contents = reader->file().contents();
+    QCOMPARE(reader->otherChannels().size(), 2U);
+    for (const std::uint16_t id : reader->otherChannels()) {
+      QCOMPARE(contents.statistics.perChannel.at(id), 1000U);
+    }
+    const McapChannel& battery = contents.channels.at(reader->otherChannels()[0]);
+    QCOMPARE(battery.topic, std::string("/battery"));
+    QCOMPARE(contents.schemas.at(battery.schema).name, std::string("std_msgs/msg/Float64"));
   }
 
   // The check is able to fail: one flipped bit anywhere is found.

@@ -14,6 +14,10 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
+
+# The studio's clock has a thread in this program, of which Python 3.12 and later warn at each fork.
+warnings.filterwarnings("ignore", category=DeprecationWarning)
 
 SECONDS = int(sys.argv[1])
 

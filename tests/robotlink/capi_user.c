@@ -2,6 +2,7 @@
 /* A program in plain C that uses the library as a stranger would: plays a scenario to its end and
  * prints the hash of the last state, then does everything in the wrong order. `capi_user SCENARIO SEED
  * SECONDS`; the exit status is the number of things that were not as promised. */
+#include <pitchboard_session.h>
 #include <pitchboard_sim.h>
 
 #include <inttypes.h>

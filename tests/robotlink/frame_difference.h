@@ -23,6 +23,7 @@ inline QString difference(const telemetry::LinkHealth& a, const telemetry::LinkH
   SAME(bytes);
   SAME(errorCount);
   SAME(recoveries);
+  SAME(offline);
   SAME(rate);
   SAME(jitter);
   SAME(loss);
@@ -60,31 +61,14 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   return a.link ? difference(*a.link, *b.link) : QString();
 }
 
-inline QString difference(const RefereeView& a, const RefereeView& b) {
+inline QString difference(const RefereeReception& a, const RefereeReception& b) {
   SAME(version);
   SAME(sender);
   SAME(age);
   SAME(timedOut);
   SAME(conflict);
-  SAME(truth.has_value());
+  SAME(truth);
   SAME(replies.size());
-  SAME(state);
-  SAME(setPlay);
-  SAME(phase);
-  SAME(firstHalf);
-  SAME(stopped);
-  SAME(secondsLeft);
-  SAME(secondaryTime);
-  SAME(countdown);
-  SAME(performingTeam);
-  SAME(setPlayStep);
-  SAME(kickOffTeam);
-  for (std::size_t i = 0; i < a.teams.size(); ++i) {
-    SAME(teams[i].number);
-    SAME(teams[i].colour);
-    SAME(teams[i].score);
-    SAME(teams[i].playersLeft);
-  }
   SAME(ourTeam);
   return {};
 }
@@ -100,7 +84,7 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
   SAME(settings->field.name);
   SAME(robots.size());
   SAME(drawings);
-  SAME(referee.has_value());
+  SAME(game);
   SAME(teamBalls.size());
   for (std::size_t i = 0; i < a.teamBalls.size(); ++i) {
     SAME(teamBalls[i].team);
@@ -109,10 +93,8 @@ inline QString difference(const MatchFrame& a, const MatchFrame& b) {
     SAME(teamBalls[i].agree);
     SAME(teamBalls[i].see);
   }
-  if (a.referee) {
-    if (const QString found = difference(*a.referee, *b.referee); !found.isEmpty()) {
-      return QStringLiteral("referee ") + found;
-    }
+  if (const QString found = difference(a.reception, b.reception); !found.isEmpty()) {
+    return QStringLiteral("referee ") + found;
   }
   for (std::size_t i = 0; i < a.robots.size(); ++i) {
     if (const QString found = difference(a.robots[i], b.robots[i]); !found.isEmpty()) {

@@ -45,7 +45,7 @@ int main(int, char** argv) {
   }
   while (true) {
     (void)manager.step(std::chrono::steady_clock::now());
-    for (const ProcessLine& line : manager.takeLines()) std::printf("%s\n", line.text.c_str());
+    for (const ProcessLine& line : manager.drainLines()) std::printf("%s\n", line.text.c_str());
     std::fflush(stdout);
     ::usleep(10'000);
   }

@@ -12,8 +12,8 @@
 #include <limits>
 #include <set>
 
-#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/cognition/behaviour_parameters.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/match/simulated_match.h>
 

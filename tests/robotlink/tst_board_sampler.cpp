@@ -13,6 +13,7 @@
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/series/series_store.h>
 
+#include "../support/group_facts.h"
 #include "../support/segment_keys.h"
 
 namespace tst_board_sampler {
@@ -40,7 +41,7 @@ struct Sampled {
   }
   /// With the rows that have come.
   AttachedStatus status() {
-    robots.takeRows([this](const auto& group, auto rows) { keeper.take(group, rows); });
+    robots.drainRows([this](const auto& group, auto rows) { keeper.take(group, rows); });
     return robots.status().front();
   }
   double newest() {
@@ -93,7 +94,7 @@ class TestBoardSampler : public QObject {
     const double slope = (samples.back().value - samples.front().value) /
                          (samples.back().time - samples.front().time);
     QVERIFY2(std::abs(slope - 200.0) < 20.0, qPrintable(QString::number(slope)));
-    QCOMPARE(view->info().attributes.at("key"), std::to_string(segment.key));
+    QCOMPARE(attributesOf(view->info()).at("key"), std::to_string(segment.key));
     QCOMPARE(view->info().columns[id->column].labels.at(4), std::string("kick right"));
   }
 

@@ -7,10 +7,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <robotlink/calibrate/calibration_file.h>
 
 #include "../support/calibration_trial.h"
+#include "../support/group_facts.h"
+#include "calibration_check.h"
 #include "executed_actions.h"
 #include "motion_parameters.h"
 #include "motion_start.h"
@@ -89,7 +92,7 @@ class TestCalibrate : public QObject {
 
   /// The estimators read variables of the blackboard, never a truth column.
   void truthIsNeverRead() {
-    const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/robotlink/calibrate/src"));
+    const QDir folder(QStringLiteral(PITCHBOARD_SOURCE_DIR "/robotlink/laboratory/calibrate/src"));
     const QStringList files = folder.entryList({"*.cpp", "*.h"});
     QVERIFY(files.size() > 8);
     for (const QString& name : files) {
@@ -196,6 +199,19 @@ class TestCalibrate : public QObject {
     if (what == "carried") QVERIFY(mentions(*calibration, "outliers"));
   }
 
+  /// A robot that is not at all like its base model: said for what moved, and for nothing else.
+  void whatThePriorHardlyAllowsIsSaid() {
+    const CalibrationLog log = logOf(drill(140.0));
+    sim::RobotModel base = kidSize();
+    QVERIFY(beyondPriorTexts(calibrate(std::span(&log, 1), base).value()).empty());
+    base.forwardFast *= 3.0;
+    const Calibration calibration = calibrate(std::span(&log, 1), base).value();
+    const std::vector<std::string> texts = beyondPriorTexts(calibration);
+    QVERIFY(!texts.empty());
+    QVERIFY2(texts.front().starts_with("forward_fast is 0.3"), texts.front().c_str());
+    QVERIFY(std::ranges::count(calibration.notes, texts.front()) == 1);
+  }
+
   /// Walks against a wall for some seconds: that says nothing about its gait.
   void wallsDoNotSlowTheGaitDown() {
     Scenario scenario = drill(140.0);
@@ -205,7 +221,9 @@ class TestCalibrate : public QObject {
     QVERIFY2(calibration.has_value(), calibration ? "" : calibration.error().text().c_str());
     QVERIFY(isNear(*calibration, "forward_fast", kidSize().forwardFast, 0.1));
     QVERIFY(isNear(*calibration, "backward_fast", kidSize().backwardFast, 0.1));
-    QVERIFY(calibration->leftOut.contains("beside the ball, another robot, a goal or a wall"));
+    const char* touching = "possibly touching the ball, another robot, a goal or a wall";
+    QVERIFY(calibration->leftOut.contains(touching));
+    QVERIFY(calibration->leftOut.at(touching).stretches >= 1);
     const CalibratedValue* noise = calibration->find("noise.forward");
     QVERIFY(noise == nullptr || noise->value < 2.0 * kidSize().noise.forward);
   }
@@ -217,7 +235,7 @@ class TestCalibrate : public QObject {
                              const std::vector<const char*>& columns) {
       telemetry::GroupInfo info;
       info.name = name;
-      info.attributes = {{"team", "blue"}, {"robot", number}};
+      info.robot = telemetry::facts({{"team", "blue"}, {"robot", number}});
       for (const char* column : columns) info.columns.emplace_back().name = column;
       return store.addGroup(info);
     };
@@ -263,6 +281,26 @@ class TestCalibrate : public QObject {
     QVERIFY(sense->count > 20 && sense->count <= 60);
   }
 
+  /// A constant bias is no correlation: independent values stay independent about another mean.
+  void residualsOfABiasedSensorAreUncorrelated() {
+    for (const double bias : {0.0, 1.0, -5.0}) {
+      std::mt19937 random(3);
+      std::normal_distribution<double> noise(bias, 1.0);
+      MotionFit motion;
+      auto& innovations = motion.ofLogs.emplace_back().innovations;
+      for (std::uint32_t i = 0; i < 20'000; ++i) {
+        innovations.push_back({noise(random), 1.0, i, Sense::BallBearing});
+      }
+      Calibration out;
+      describeResiduals(motion, out);
+      QCOMPARE(out.residuals.size(), std::size_t{1});
+      QVERIFY(std::abs(out.residuals[0].mean - bias) < 0.05);
+      QVERIFY(std::abs(out.residuals[0].deviation - 1.0) < 0.05);
+      QVERIFY2(std::abs(out.residuals[0].autocorrelation) < 0.05,
+               std::to_string(out.residuals[0].autocorrelation).c_str());
+    }
+  }
+
   /// One row a second, as some teams' telemetry: whatever it does not show is listed.
   void oneRowASecond() {
     RecordingOptions options;
@@ -294,7 +332,7 @@ class TestCalibrate : public QObject {
     info.name = "B1";
     info.columns.resize(1);
     info.columns[0].name = "TEMPERATURE";
-    info.attributes["team"] = "blue";
+    info.robot.emplace().team = TeamColor::Blue;
     const auto group = other.addGroup(info);
     for (int i = 0; i < 10; ++i) {
       const double value = i;

@@ -3,16 +3,21 @@
 #include <QFile>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QTemporaryDir>
 #include <QtTest>
 
+#include <pitchboard_session.h>
 #include <pitchboard_sim.h>
 #include <robotlink/capi/worlds.h>
+#include <telemetry/session/session_writer.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <thread>
 
+#include "../support/group_facts.h"
 #include "../support/program_run.h"
 
 namespace tst_capi {
@@ -51,6 +56,47 @@ std::size_t columnOf(WorldArray array, std::string_view name) {
   }
   qFatal("no such column");
   return 0;
+}
+
+/// Five rows, a second apart, in which B1 does not see the ball at odd times; and a bookmark.
+void writeSession(const std::string& path) {
+  telemetry::SessionInfo about;
+  about.program = "test";
+  about.title = "five rows";
+  about.seed = 7;
+  auto writer = telemetry::SessionWriter::create(path, about).value();
+  const telemetry::GroupInfo robot{
+      "B1",
+      {{"LOST", telemetry::ColumnType::Int32, "", "Vision", telemetry::ColumnKind::Flag, {}},
+       {"DIST",
+        telemetry::ColumnType::Float32,
+        "cm",
+        "Vision",
+        telemetry::ColumnKind::Number,
+        {},
+        0.0,
+        {{"LOST", 1.0}}},
+       {"X", telemetry::ColumnType::Float64, "m", "Truth", telemetry::ColumnKind::Number, {}}},
+      telemetry::facts({{"robot", "1"}})};
+  const telemetry::GroupId id = writer->addGroup(robot);
+  for (int t = 0; t < 5; ++t) {
+    const std::uint32_t words[] = {static_cast<std::uint32_t>(t % 2),
+                                   std::bit_cast<std::uint32_t>(10.5F * static_cast<float>(t))};
+    const double x = 0.1 * t;
+    writer->append(id, {static_cast<double>(t), words, {&x, 1}});
+  }
+  writer->append(telemetry::SessionEvent{3.0, "bookmark", "", "here"});
+  if (!writer->finish()) qFatal("not written");
+}
+
+template <class Value>
+std::vector<Value> spanOf(const pb_data* data, std::size_t index, pb_type type) {
+  pb_span span{};
+  span.size = sizeof span;
+  if (pb_data_span(data, index, &span) != PB_OK) qFatal("%s", pb_last_error());
+  if (span.type != type) qFatal("another type");
+  const auto* first = static_cast<const Value*>(span.values);
+  return {first, first + span.count};
 }
 
 std::vector<double> values(const Worlds& worlds, WorldArray array) {
@@ -198,7 +244,7 @@ class TestCapi : public QObject {
       QCOMPARE(names, recorded[static_cast<std::size_t>(array)]);
     }
     QCOMPARE(pb_column_count(7), std::size_t{0});
-    QCOMPARE(pb_api_version(), 2);
+    QCOMPARE(pb_api_version(), 3);
   }
 
   void aNewBeginningIsLikeANewMatch() {
@@ -429,6 +475,79 @@ class TestCapi : public QObject {
     QCOMPARE(reported, (std::vector<double>{7, 1}));
     reported = {1.5, 1};
     QVERIFY(!worlds.writeVariables(action, reported));
+  }
+
+  void aSessionIsReadThroughTheCInterface() {
+    const QTemporaryDir folder;
+    const std::string path = folder.filePath("five.mcap").toStdString();
+    writeSession(path);
+    pb_session* session = nullptr;
+    QCOMPARE(pb_session_open((path + "x").c_str(), &session), PB_NOT_FOUND);
+    QVERIFY(QByteArray(pb_last_error()).contains("five.mcapx"));
+    QCOMPARE(pb_session_open(nullptr, &session), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_session_open(path.c_str(), &session), PB_OK);
+
+    pb_data* data = nullptr;
+    QCOMPARE(pb_session_describe(session, &data), PB_OK);
+    const auto text = spanOf<char>(data, 0, PB_CHARS);
+    const auto about = QJsonDocument::fromJson({text.data(), qsizetype(text.size())}).object();
+    QCOMPARE(about["title"].toString(), "five rows");
+    QCOMPARE(about["seed"].toInt(), 7);
+    QCOMPARE(about["until"].toDouble(), 4.0);
+    const auto group = about["groups"][0].toObject();
+    QCOMPARE(group["name"].toString(), "B1");
+    QCOMPARE(group["rows"].toInt(), 5);
+    QCOMPARE(group["columns"][1]["unit"].toString(), "cm");
+    QCOMPARE(group["columns"][1]["type"].toInt(), int(PB_FLOAT32));
+    QCOMPARE(pb_data_free(data), PB_OK);
+    QCOMPARE(pb_data_free(data), PB_STALE_HANDLE);
+
+    const std::int32_t columns[] = {2, 1, 0};
+    QCOMPARE(pb_session_rows(session, 0, columns, 3, 1.0, 3.0, PB_UNKNOWN_NAN, &data), PB_OK);
+    QCOMPARE(spanOf<double>(data, 0, PB_FLOAT64), (std::vector<double>{1, 2, 3}));
+    QCOMPARE(spanOf<double>(data, 1, PB_FLOAT64), (std::vector<double>{0.1, 0.1 * 2, 0.1 * 3}));
+    const auto distances = spanOf<float>(data, 2, PB_FLOAT32);
+    QVERIFY(std::isnan(distances[0]) && distances[1] == 21.0F && std::isnan(distances[2]));
+    QCOMPARE(spanOf<std::int32_t>(data, 3, PB_INT32), (std::vector<std::int32_t>{1, 0, 1}));
+    pb_span span{};
+    QCOMPARE(pb_data_span(data, 0, &span), PB_INVALID_ARGUMENT);
+    span.size = sizeof span;
+    QCOMPARE(pb_data_span(data, 4, &span), PB_NOT_FOUND);
+    pb_data_free(data);
+    constexpr double always = std::numeric_limits<double>::infinity();
+    QCOMPARE(pb_session_rows(session, 0, columns, 2, -always, always, PB_UNKNOWN_OLD, &data),
+             PB_OK);
+    QCOMPARE(spanOf<float>(data, 2, PB_FLOAT32), (std::vector<float>{0, 10.5F, 21, 31.5F, 42}));
+    pb_data_free(data);
+
+    QCOMPARE(pb_session_frame(session, 3.5, &data), PB_OK);
+    const auto frame = spanOf<double>(data, 0, PB_FLOAT64);
+    QCOMPARE(frame.size(), std::size_t{4});
+    QVERIFY(frame[0] == 3.0 && frame[1] == 1.0 && std::isnan(frame[2]) && frame[3] == 0.1 * 3);
+    pb_data_free(data);
+    QCOMPARE(pb_session_events(session, 0.0, 2.9, &data), PB_OK);
+    QCOMPARE(spanOf<char>(data, 0, PB_CHARS), (std::vector<char>{'[', ']'}));
+    pb_data_free(data);
+    QCOMPARE(pb_session_events(session, 0.0, 3.0, &data), PB_OK);
+    QVERIFY(spanOf<char>(data, 0, PB_CHARS).size() > 20);
+
+    // What was read stays; everything else is refused with a sentence.
+    pb_data* none = nullptr;
+    const std::int32_t wrong[] = {3};
+    QCOMPARE(pb_session_rows(session, 1, columns, 3, 0, 1, 0, &none), PB_NOT_FOUND);
+    QCOMPARE(pb_session_rows(session, 0, wrong, 1, 0, 1, 0, &none), PB_NOT_FOUND);
+    QCOMPARE(pb_session_rows(session, 0, nullptr, 1, 0, 1, 0, &none), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_session_rows(session, 0, columns, 3, 1, 0, 0, &none), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_session_rows(session, 0, columns, 3, 0, 1, 2, &none), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_session_frame(session, std::nan(""), &none), PB_INVALID_ARGUMENT);
+    QCOMPARE(pb_session_close(session), PB_OK);
+    QCOMPARE(pb_session_close(session), PB_STALE_HANDLE);
+    QCOMPARE(pb_session_frame(session, 1.0, &none), PB_STALE_HANDLE);
+    QVERIFY(none == nullptr);
+    QVERIFY(spanOf<char>(data, 0, PB_CHARS).size() > 20);
+    pb_data_free(data);
+    QCOMPARE(pb_data_free(nullptr), PB_OK);
+    QCOMPARE(pb_session_close(nullptr), PB_OK);
   }
 
   void programsOfATeamAreRefused() {

@@ -2,8 +2,8 @@
 #include <QtTest>
 #include <limits>
 
-#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/process_registry.h>
 
 #include "../support/test_socket.h"
 

@@ -60,11 +60,16 @@ class TestExperiment : public QObject {
   void runsDependOnTheirNumberOnly();
   void folderDoesNotShowHowItWasFilled();
   void folderOfAnotherExperimentIsRefused();
+  void resultsAreDiscarded();
   void aPlacedRobotStandsThere();
   void stuckRobotsEndTheRun();
   void goalsAreCountedForTheTeam();
+  void metricsLeaveUnknownValuesOut();
+  void assertionsAndMetricsAgreeOnUnknownValues();
+  void theBallsPathHasAGapAfterAGoal();
   void recordedRunEndsInTheSameState();
   void aRunThatEndsDifferentlyIsMarked();
+  void conditionsWithoutAnEffectAreNamed();
   void separateProcessesEndInTheSameState();
   void aSituationStartsInAnyState_data();
   void aSituationStartsInAnyState();
@@ -158,8 +163,37 @@ void TestExperiment::folderOfAnotherExperimentIsRefused() {
   QCOMPARE(ExperimentFolder::begin(path, e, false).error().code, ErrorCode::Conflict);
   QCOMPARE(ExperimentFolder::begin(path, other, true).error().code, ErrorCode::Conflict);
   QVERIFY(ExperimentFolder::begin(path, e, true).has_value());
+  for (const auto& [experiment, resume] : {std::pair{&e, false}, {&other, true}}) {
+    const auto refused = ExperimentFolder::begin(path, *experiment, resume);
+    QVERIFY(refused.error().message.find("--force to start over") != std::string::npos);
+  }
   QCOMPARE(mergeFolders({path}, dir.filePath("m").toStdString(), other).error().code,
            ErrorCode::Conflict);
+}
+
+/// Only what belongs to the results goes.
+void TestExperiment::resultsAreDiscarded() {
+  const QTemporaryDir dir;
+  const std::string path = dir.filePath("results").toStdString();
+  QVERIFY(discardResults(path).has_value());  // nothing is there yet
+  const Experiment e = experimentFrom(shortMatch);
+  const std::string session = sessionPath(path, 1);
+  {
+    auto folder = ExperimentFolder::begin(path, e, false);
+    QVERIFY(folder.has_value());
+    QCOMPARE(discardResults(path).error().message,
+             std::string("another program is playing this experiment"));
+    QVERIFY(folder->finish().has_value());
+  }
+  std::filesystem::create_directories(std::filesystem::path(session).parent_path());
+  for (const std::string& file : {session, path + "/notes.txt", path + "/report.html"}) {
+    QVERIFY(writeFile(file, "text", IfExists::Refuse).has_value());
+  }
+  QVERIFY(discardResults(path).has_value());
+  QCOMPARE(QDir(QString::fromStdString(path)).entryList(QDir::AllEntries | QDir::NoDotAndDotDot),
+           QStringList{"notes.txt"});
+  const Experiment other = experimentFrom(replaced(shortMatch, "\"seed\": 7", "\"seed\": 8"));
+  QVERIFY(ExperimentFolder::begin(path, other, false).has_value());
 }
 
 void TestExperiment::aPlacedRobotStandsThere() {
@@ -203,6 +237,70 @@ void TestExperiment::goalsAreCountedForTheTeam() {
   }
 }
 
+/// Before a robot has seen the ball, its blackboard says 0 cm, and a plot shows a gap.
+void TestExperiment::metricsLeaveUnknownValuesOut() {
+  const Experiment e =
+      experimentFrom(replaced(shortMatch, "B1.TRUE_BALL_DIST", "min(1000, B1.VISION_BALL_DIST)"));
+  auto player = RunPlayer::create(e, {});
+  const auto result = player->play(1);
+  QVERIFY2(result.has_value(), result ? "" : result.error().text().c_str());
+  QVERIFY2(result->values.back() > 5.0 && result->values.back() < 45.0,
+           std::to_string(result->values.back()).c_str());
+
+  // A robot that never sees it: there is no value, not one of 0.
+  const Experiment blind =
+      experimentFrom(replaced(replaced(shortMatch, "B1.TRUE_BALL_DIST", "B1.VISION_BALL_DIST"),
+                              R"("x": 0.3)", R"("x": -4.0)"));
+  auto blindPlayer = RunPlayer::create(blind, {});
+  const auto none = blindPlayer->play(1);
+  QVERIFY(none.has_value());
+  QVERIFY2(std::isnan(none->values.back()), std::to_string(none->values.back()).c_str());
+}
+
+/// A goal that was never scored has no time: neither a metric nor a condition makes a number of it.
+void TestExperiment::assertionsAndMetricsAgreeOnUnknownValues() {
+  for (const auto& [success, holds] : {std::pair{"min(time_to_goal_s, 100) < 200", false},
+                                       {"min(100, time_to_goal_s) < 200", false},
+                                       {"time_to_goal_s ? 1 : 1", false},
+                                       {"!(time_to_goal_s < 5)", false},
+                                       {"known(time_to_goal_s) ? time_to_goal_s < 5 : 1", true}}) {
+    const Experiment e = experimentFrom(replaced(shortMatch, "nearest_cm < 25", success));
+    auto player = RunPlayer::create(e, {});
+    const auto result = player->play(1);
+    QVERIFY2(result.has_value(), success);
+    const auto metrics = metricsOf(e);
+    const auto at = std::ranges::find(metrics, std::string("success"), &MetricInfo::name);
+    const double value = result->values[static_cast<std::size_t>(at - metrics.begin())];
+    QVERIFY2((value != 0.0) == holds, success);
+  }
+}
+
+void TestExperiment::theBallsPathHasAGapAfterAGoal() {
+  const Experiment e = experimentFrom(R"({
+    "version": 1, "name": "goal", "scenario": {"version": 1, "ball": {"x": 4, "y": 0, "vx": 8},
+      "robots": [{"team": "blue", "number": 1, "x": -3, "y": 2, "behaviour": "none"}]},
+    "sample": 0.5, "stop": {"duration": 3}})");
+  auto player = RunPlayer::create(e, {});
+  const auto result = player->play(1);
+  QVERIFY2(result.has_value(), result ? "" : result.error().text().c_str());
+  std::vector<std::vector<Point>> pieces;
+  for (const RunPath& path : result->paths) {
+    if (path.who == "ball") pieces.push_back(path.points);
+  }
+  QCOMPARE(pieces.size(), std::size_t{2});
+  QVERIFY(pieces[0].back().x > 4.3);             // as far as it went
+  QVERIFY(std::abs(pieces[1].front().x) < 0.5);  // where it was put
+  QCOMPARE(result->paths.size(), std::size_t{3});
+  // They go through the file.
+  const QTemporaryDir dir;
+  const std::string out = dir.filePath("out").toStdString();
+  auto folder = ExperimentFolder::begin(out, e, false);
+  QVERIFY(playInto(*folder, e, numbers(1, e.allRuns()), 1).has_value());
+  const auto table = resultsOf(out, e);
+  QVERIFY(table.has_value());
+  QVERIFY(table->conditions[0].drawn.at(0).paths == result->paths);
+}
+
 void TestExperiment::recordedRunEndsInTheSameState() {
   const QTemporaryDir dir;
   const Experiment e = experimentFrom(shortMatch);
@@ -242,6 +340,27 @@ void TestExperiment::aRunThatEndsDifferentlyIsMarked() {
   QVERIFY(files.at("report.md").find("Not repeatable") != std::string::npos);
   std::filesystem::remove(session);
   QVERIFY(recordAgain(out, e, 6, session, {}).has_value());  // nobody expects it any more
+}
+
+void TestExperiment::conditionsWithoutAnEffectAreNamed() {
+  const auto played = [](const std::string& text) {
+    const QTemporaryDir dir;
+    const Experiment e = experimentFrom(text);
+    const std::string out = dir.filePath("out").toStdString();
+    auto folder = ExperimentFolder::begin(out, e, false);
+    if (!playInto(*folder, e, numbers(1, 8), 1)) qFatal("not played");
+    const auto report = filesIn(out).at("report.md");
+    return std::pair{identicalTexts(summarize(e, *resultsOf(out, e))), report};
+  };
+  const auto [same, sameReport] =
+      played(replaced(shortMatch, R"("set": {"noise": "paper", "noise.forward": 0.01})",
+                      R"("set": {"noise": "none", "writes[0].value": 2})"));
+  QCOMPARE(same, std::vector<std::string>{
+                     R"("plain" and "noisy" played identically: all 4 runs end in the same state. )"
+                     "What differs between them has no effect in this scenario."});
+  QVERIFY(sameReport.find("all 4 runs end in the same state") != std::string::npos);
+  const auto [different, report] = played(shortMatch);
+  QVERIFY(different.empty() && report.find("identically") == std::string::npos);
 }
 
 void TestExperiment::separateProcessesEndInTheSameState() {
@@ -288,13 +407,13 @@ void TestExperiment::aSituationStartsInAnyState() {
   auto match = SimulatedMatch::create(scenario, {});
   QVERIFY2(match.has_value(), match ? "" : match.error().text().c_str());
   for (int i = 0; i < 60 * 5; ++i) match->tick();
-  const sim::GameState& now = *match->simulation().state().game;
-  QCOMPARE(QString::fromUtf8(sim::labelOf(now.setPlay()).data()), wanted);
-  if (wanted.isEmpty()) QCOMPARE(sim::secondsOf(now.clock, 60.0), 55);
+  const Game& now = *match->simulation().state().game;
+  QCOMPARE(QString::fromUtf8(labelOf(now.setPlay()).data()), wanted);
+  if (wanted.isEmpty()) QCOMPARE(now.secondsLeft(), 55);
   const sim::Snapshot seen = match->simulation().snapshot();
   for (const auto& [colour, shirt] :
        {std::pair(TeamColor::Blue, 2), std::pair(TeamColor::Red, 3)}) {
-    QCOMPARE(now.player(colour, shirt)->penalty, sim::PenaltyKind::SentOff);
+    QCOMPARE(now.player(colour, shirt)->penalty, PenaltyKind::SentOff);
     for (const sim::RobotSnapshot& robot : seen.robots) {
       if (robot.identity.team != colour || robot.identity.number != shirt) continue;
       QVERIFY(std::abs(robot.pose.position.y) > scenario.settings.field.halfWidth());
@@ -318,9 +437,9 @@ void TestExperiment::aSituationKeepsTheGame() {
   Scenario base;
   base.settings.referee = **refereeRuleSet("humanoid-2021");
   sim::GameStart& game = base.game.emplace();
-  game.state = sim::PlayState::Ready;
+  game.state = PlayState::Ready;
   game.countdown = 12.0;
-  game.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Pushing, .left = 20.0};
+  game.robots[RobotId{2}] = {.penalty = PenaltyKind::Pushing, .left = 20.0};
   base.writes = {{{}, "COM_REFEREE", 2, 0.0}};
   MomentOptions options;
   options.base = &base;

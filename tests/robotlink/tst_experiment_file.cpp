@@ -65,13 +65,13 @@ void TestExperimentFile::errorsNameTheLineAndTheKey_data() {
                                   << "test.json:9: condition \"plain\": noise";
   QTest::newRow("robot") << "\"robots\": {\"x\": 0.1"
                          << "\"B2\": {\"x\": 0.1"
-                         << "there is no robot B2";
+                         << "there is no robot \"B2\" in this scenario; there are: B1";
   QTest::newRow("condition") << "\"condition\": \"plain\""
                              << "\"condition\": \"plan\""
                              << "there is no condition plan";
   QTest::newRow("expression") << "B1.TRUE_BALL_DIST"
                               << "B1.TRUE_BALL_DIST +"
-                              << "test.json:13: metrics: nearest_cm: cannot be read";
+                              << "test.json:13: metrics: nearest_cm: the expression is incomplete";
   QTest::newRow("stop key") << "\"noise.forward\""
                             << "\"stop.duration\""
                             << "\"stop\" is set by the experiment itself";

@@ -11,7 +11,7 @@
 #include <robotlink/experiment/statistics.h>
 #include <robotlink/report/quantile.h>
 
-#include "checks.h"
+#include <robotlink/experiment/checks.h>
 
 namespace tst_experiment_statistics {
 

@@ -77,6 +77,7 @@ class TestExperimentTeamPrograms : public QObject {
  private slots:
   void eachRunHasItsProgramAndItsPaceIsReported();
   void aProgramThatDoesNotRunIsNamed();
+  void aProgramThatDiesWhileItPlaysIsNamed();
   void theyPlayBesideInlineRobots();
   void referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed();
 };
@@ -146,6 +147,31 @@ void TestExperimentTeamPrograms::aProgramThatDoesNotRunIsNamed() {
   const QString reported = QString::fromStdString(result.error().text());
   QVERIFY2(reported.startsWith(QStringLiteral("B1 decision does not run")), qPrintable(reported));
   QVERIFY2(reported.contains(QStringLiteral("no_such_program.py")), qPrintable(reported));
+}
+
+/// It plays and dies then; a run of a robot that stands still measures nothing.
+void TestExperimentTeamPrograms::aProgramThatDiesWhileItPlaysIsNamed() {
+  const Rig rig(QStringLiteral("naive_robot.py"));
+  std::string dies = rig.json();
+  const auto at = dies.find("/python.json");
+  const auto begin = dies.rfind('"', at) + 1;
+  const std::string profile = dies.substr(begin, dies.find('"', at) - begin);
+  std::string command = readFile(profile, 1 << 16).value();
+  command.replace(command.find(R"("python3")"), 9, R"("timeout", "4", "python3")");
+  command.replace(command.find(R"("heartbeat")"), 0, R"("restart": "never", )");
+  const std::string other = rig.path("dies.json");
+  {
+    QFile file(QString::fromStdString(other));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write(command.c_str()) > 0);
+  }
+  dies.replace(begin, profile.size(), other);
+  const auto e = experimentFromJson(dies, "test.json");
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  auto player = RunPlayer::create(*e, settingsFor({}));
+  const auto result = player->play(1);
+  QVERIFY(!result);
+  const QString reported = QString::fromStdString(result.error().text());
+  QVERIFY2(reported.startsWith(QStringLiteral("B1 decision died")), qPrintable(reported));
 }
 
 /// Conditions differ in who plays: one of ours inside, the team's program beside an inline robot.

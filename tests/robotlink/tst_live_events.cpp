@@ -25,20 +25,28 @@ struct Stage {
     RobotFrame& seen = frame.robots.emplace_back();
     seen.identity = {{}, team, id, false};
     seen.key = keyOf(seen.identity);
+    seen.uid = uidOf(seen.key);
     seen.name = seen.identity.name();
     seen.link.emplace().sender = {*telemetry::parseAddress("192.168.0." + std::to_string(id)),
                                   4000};
     return seen;
   }
-  RefereeView& referee() {
-    RefereeView& view = frame.referee.emplace();
-    view.sender = "192.168.0.99:3838";
-    view.version = 17;
-    view.state = "INITIAL";
-    view.secondsLeft = 600;
-    view.teams[0] = {12, "blue", 0, 4};
-    view.teams[1] = {5, "unknown", 0, 4};
-    return view;
+  Game& referee() {
+    frame.reception.sender = "192.168.0.99:3838";
+    frame.reception.version = 17;
+    Game& game = frame.game.emplace();
+    game.clock = 600;
+    game.teams[0].number = 12;
+    game.teams[1].number = 5;
+    game.teams[1].colour = TeamColor::Unknown;
+    return game;
+  }
+  /// None: normal play.
+  void give(SetPlay play) {
+    frame.game->restart = {};
+    if (play == SetPlay::None) return;
+    frame.game->restart.kind = play;
+    frame.game->restart.step = Restart::Step::Taking;
   }
 };
 
@@ -62,7 +70,7 @@ class TestLiveEvents : public QObject {
     s.referee();
     QVERIFY(!s.at(0.2).empty());
     QVERIFY(s.at(0.3).empty());
-    s.frame.referee->secondsLeft = 599;
+    s.frame.game->clock = 599;
     s.frame.robots[0].link->age = std::chrono::milliseconds(500);
     QVERIFY(s.at(0.4).empty());
   }
@@ -77,11 +85,17 @@ class TestLiveEvents : public QObject {
     reported = s.at(7.5);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::RobotOffline}));
     QCOMPARE(reported[0].time, 7.5);
-    QCOMPARE(reported[0].robot, red(3));
+    QCOMPARE(reported[0].robot, s.frame.robots[0].uid);
     QCOMPARE(reported[0].name, std::string("R3"));
     QCOMPARE(sentenceOf(reported[0]), std::string("R3 went offline"));
+    // The last message came at 1 s, the next one at 38 s.
+    s.frame.robots[0].link->age = std::chrono::seconds(30);
+    QVERIFY(s.at(31.0).empty());
     s.frame.robots[0].link->timedOut = false;
-    QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::RobotBack}));
+    s.frame.robots[0].link->age = {};
+    reported = s.at(38.0);
+    QCOMPARE(kindsOf(reported), (Kinds{Kind::RobotBack}));
+    QCOMPARE(sentenceOf(reported[0]), std::string("R3 is online again after 37 s"));
   }
 
   void losingTheBallIsReportedOnce() {
@@ -121,7 +135,7 @@ class TestLiveEvents : public QObject {
     s.frame.robots[0].link->sender.address = *telemetry::parseAddress("192.168.0.77");
     const auto reported = s.at(3.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::AddressChanged}));
-    QCOMPARE(reported[0].robot, blue(3));
+    QCOMPARE(reported[0].robot, s.frame.robots[0].uid);
     QCOMPARE(reported[0].detail, std::string("192.168.0.3 to 192.168.0.77"));
     QVERIFY(s.at(4.0).empty());
   }
@@ -158,7 +172,7 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.robot(1);
     (void)s.at(1.0);
-    s.frame.robots[0].penalty = Penalty{"pushing", 30};
+    s.frame.robots[0].penalty = Penalty{PenaltyKind::Pushing, 30};
     auto reported = s.at(2.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::Penalised}));
     QCOMPARE(reported[0].detail, std::string("pushing"));
@@ -166,7 +180,7 @@ class TestLiveEvents : public QObject {
     QCOMPARE(sentenceOf(reported[0]), std::string("B1 penalised: pushing, 30 s"));
     s.frame.robots[0].penalty->secondsLeft = 12;  // counting down is no event
     QVERIFY(s.at(3.0).empty());
-    s.frame.robots[0].penalty->text = "pickup";
+    s.frame.robots[0].penalty->kind = PenaltyKind::PickUp;
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::Penalised}));
     s.frame.robots[0].penalty.reset();
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PenaltyOver}));
@@ -179,36 +193,36 @@ class TestLiveEvents : public QObject {
     QCOMPARE(kindsOf(reported), (Kinds{Kind::RefereeReceived, Kind::GameState}));
     QCOMPARE(reported[0].value, 17);
     QCOMPARE(reported[1].detail, std::string("INITIAL"));
-    s.frame.referee->state = "PLAYING";
-    s.frame.referee->secondsLeft = 595;
+    s.frame.game->state = PlayState::Playing;
+    s.frame.game->clock = 595;
     reported = s.at(2.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::GameState}));
     QCOMPARE(sentenceOf(reported[0]), std::string("PLAYING at 09:55"));
     QCOMPARE(labelOf(reported[0]), std::string("PLAYING"));
-    s.frame.referee->setPlay = "corner kick";
+    s.give(SetPlay::CornerKick);
     reported = s.at(3.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::SetPlay}));
     QCOMPARE(sentenceOf(reported[0]), std::string("corner kick"));
-    s.frame.referee->setPlay.clear();
+    s.give(SetPlay::None);
     QCOMPARE(sentenceOf(s.at(4.0).at(0)), std::string("normal play"));
-    s.frame.referee->stopped = true;
+    s.frame.game->stopped = true;
     QCOMPARE(kindsOf(s.at(5.0)), (Kinds{Kind::PlayStopped}));
-    s.frame.referee->stopped = false;
+    s.frame.game->stopped = false;
     QCOMPARE(kindsOf(s.at(6.0)), (Kinds{Kind::PlayGoesOn}));
-    s.frame.referee->firstHalf = false;
+    s.frame.game->half = 2;
     reported = s.at(7.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::Half}));
     QCOMPARE(reported[0].value, 2);
-    s.frame.referee->phase = "overtime";
+    s.frame.game->phase = GamePhase::ExtraTime;
     QCOMPARE(kindsOf(s.at(8.0)), (Kinds{Kind::GamePhase}));
   }
 
   void whatAGameHadBegunWithIsReportedToWhoComesLater() {
     Stage s;
-    RefereeView& view = s.referee();
-    view.firstHalf = false;
-    view.setPlay = "goal kick";
-    view.teams[0].score = 2;  // no goal: nobody saw it
+    Game& game = s.referee();
+    game.half = 2;
+    s.give(SetPlay::GoalKick);
+    game.teams[0].score = 2;  // no goal: nobody saw it
     QCOMPARE(kindsOf(s.at(1.0)),
              (Kinds{Kind::RefereeReceived, Kind::GameState, Kind::SetPlay, Kind::Half}));
   }
@@ -217,24 +231,24 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.referee();
     (void)s.at(1.0);
-    s.frame.referee->teams[0].score = 1;
+    s.frame.game->teams[0].score = 1;
     auto reported = s.at(2.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::Goal}));
     QVERIFY(reported[0].side == Side::Left);
     QCOMPARE(reported[0].team, 12);
-    QCOMPARE(reported[0].colour, std::string("blue"));
+    QCOMPARE(reported[0].colour, std::optional(TeamColor::Blue));
     QCOMPARE(reported[0].score, (sim::Score{1, 0}));
     QCOMPARE(sentenceOf(reported[0]), std::string("goal for BLUE, 1 : 0"));
     // At half-time the teams change sides: nobody scored.
-    std::swap(s.frame.referee->teams[0], s.frame.referee->teams[1]);
+    std::swap(s.frame.game->teams[0], s.frame.game->teams[1]);
     QVERIFY(s.at(3.0).empty());
-    s.frame.referee->teams[0].score = 1;
+    s.frame.game->teams[0].score = 1;
     reported = s.at(4.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::Goal}));
     QVERIFY(reported[0].side == Side::Left);
     QCOMPARE(reported[0].team, 5);
     QCOMPARE(labelOf(reported[0]), std::string("goal TEAM 5"));
-    s.frame.referee->teams[0].score = 0;
+    s.frame.game->teams[0].score = 0;
     reported = s.at(5.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::ScoreCorrected}));
     QCOMPARE(reported[0].score, (sim::Score{0, 1}));
@@ -244,13 +258,13 @@ class TestLiveEvents : public QObject {
     Stage s;
     s.referee();
     (void)s.at(1.0);
-    s.frame.referee->timedOut = true;
+    s.frame.reception.timedOut = true;
     QCOMPARE(kindsOf(s.at(2.0)), (Kinds{Kind::RefereeOffline}));
-    s.frame.referee->timedOut = false;
+    s.frame.reception.timedOut = false;
     QCOMPARE(kindsOf(s.at(3.0)), (Kinds{Kind::RefereeBack}));
-    s.frame.referee->conflict = true;
+    s.frame.reception.conflict = true;
     QCOMPARE(kindsOf(s.at(4.0)), (Kinds{Kind::SecondReferee}));
-    s.frame.referee->sender = "192.168.0.98:3838";
+    s.frame.reception.sender = "192.168.0.98:3838";
     const auto reported = s.at(5.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::RefereeReceived}));
     QCOMPARE(reported[0].detail, std::string("192.168.0.98:3838"));
@@ -264,14 +278,14 @@ class TestLiveEvents : public QObject {
     network.ports[0].bound = true;
     network.ports[1].port = 1242;
     network.ports[1].problem = "Port 1242 is taken by another program.";
-    auto reported = events.comparePorts(network, 1.0);
+    auto reported = events.comparePorts(network, {}, 1.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::PortLost}));
     QCOMPARE(reported[0].value, 1242);
     QCOMPARE(reported[0].detail, network.ports[1].problem);
-    QVERIFY(events.comparePorts(network, 2.0).empty());
+    QVERIFY(events.comparePorts(network, {}, 2.0).empty());
     network.ports[1].bound = true;
     network.ports[1].problem.clear();
-    reported = events.comparePorts(network, 3.0);
+    reported = events.comparePorts(network, {}, 3.0);
     QCOMPARE(kindsOf(reported), (Kinds{Kind::PortBack}));
     QCOMPARE(sentenceOf(reported[0]), std::string("port 1242 is open now"));
   }
@@ -289,7 +303,7 @@ class TestLiveEvents : public QObject {
     Stage s;
     RobotFrame& robot = s.robot(2);
     const auto volts = [&](double value) {
-      robot.battery = telemetry::batteryAt(value, telemetry::usualBattery);
+      robot.battery = telemetry::batteryAt(value, telemetry::defaultBattery);
     };
     volts(16.4);
     s.at(0.0);

@@ -4,7 +4,6 @@
 #include <QtTest>
 
 #include <robotlink/frame/build_robot.h>
-#include <robotlink/frame/referee_view.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/referee_packet.h>
 #include <robotlink/scenario/referee_rule_sets.h>
@@ -13,6 +12,7 @@
 #include <simcore/world/published_frame.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
+#include "../support/group_facts.h"
 #include "../support/recorded_packets.h"
 #include "../support/robot_keys.h"
 #include "live_frame.h"
@@ -62,33 +62,37 @@ struct Received {
   MatchFrame frame(double time = 3.0) { return liveFrame(options, team, referee, time); }
 };
 
-/// All but sender and ages.
-QString textOf(const RefereeView& view) {
-  const auto number = [](const std::optional<int>& value) {
-    return value ? QString::number(*value) : QStringLiteral("-");
+/// What is shown of a game. Packets of some versions name no kick-off once the ball is free, and
+/// have no step of a set play.
+QString textOf(const Game& game) {
+  const auto text = [](auto value) { return QString::fromStdString(std::string(labelOf(value))); };
+  const auto numberOf = [&game](int team) {
+    return QString::number(team < 0 ? 0 : game.teams[static_cast<std::size_t>(team)].number);
   };
-  QStringList out;
-  for (const std::string& text :
-       {view.state, view.setPlay, view.phase, view.countdown, view.setPlayStep}) {
-    out << QString::fromStdString(text);
-  }
-  for (const int value : {view.version, int(view.firstHalf), int(view.stopped), view.secondsLeft,
-                          view.secondaryTime.value_or(0), view.ourTeam}) {
+  QStringList out{text(game.state), text(game.setPlay()), text(game.phase),
+                  text(game.countdownTo())};
+  for (const int value :
+       {game.half, int(game.stopped), game.secondsLeft(), game.countdownSeconds()}) {
     out << QString::number(value);
   }
-  out << number(view.performingTeam) << number(view.kickOffTeam);
-  for (const RefereeTeamView& team : view.teams) {
+  out << numberOf(game.setPlayTeam());
+  if (game.league == League::Humanoid) out << text(game.restart.step) << numberOf(game.kickOff);
+  for (const bool right : {false, true}) {
+    const GameTeam& team = game.teamAt(right);
     out << QStringLiteral("\nteam %1 %2 %3 %4")
                .arg(team.number)
-               .arg(team.colour.c_str())
+               .arg(info(team.colour).name.data())
                .arg(team.score)
-               .arg(team.playersLeft);
-    for (const RefereePlayerView& p : team.players) {
+               .arg(team.playing());
+    for (const int shirt : team.onField()) {
+      const GamePlayer& p = *team.player(shirt);
       out << QStringLiteral("%1 %2 %3 %4")
-                     .arg(p.number)
-                     .arg(p.penalty.c_str())
-                     .arg(p.secondsLeft)
-                     .arg(p.warnings + 10 * p.yellow + 100 * p.red + 1000 * p.cautions) +
+                     .arg(shirt)
+                     .arg(text(p.penalty))
+                     .arg(game.penaltySeconds(p))
+                     .arg(game.league == League::HumanoidSoccer  // packets have no cards
+                              ? p.warnings + 1000 * p.cautions
+                              : p.warnings + 10 * p.yellow + 100 * p.red + 1000 * p.cautions) +
                  (p.goalkeeper ? "g" : "");
     }
   }
@@ -125,7 +129,7 @@ class TestLiveFrame : public QObject {
     const MatchFrame frame = Received({}).frame(7.5);
     QVERIFY(frame.origin == FrameOrigin::Live);
     QVERIFY(!frame.truthKnown && !frame.ballKnown);
-    QVERIFY(frame.robots.empty() && !frame.referee && frame.teamBalls.empty());
+    QVERIFY(frame.robots.empty() && !frame.game && frame.teamBalls.empty());
     QCOMPARE(frame.snapshot.time, 7.5);
     QVERIFY(frame.robot(receivedAs(1)) == nullptr);
   }
@@ -171,7 +175,7 @@ class TestLiveFrame : public QObject {
     status.lost = 11;
     status.conflict = true;
     status.processes[3] = {telemetry::HeartbeatState::NotResponding, 0.1, 8s};
-    status.battery = telemetry::batteryAt(15.9, telemetry::usualBattery);
+    status.battery = telemetry::batteryAt(15.9, telemetry::defaultBattery);
     const RobotFrame robot = Received({status}).frame().robots.at(0);
     const telemetry::LinkHealth& health = *robot.link;
     QCOMPARE(health.sender, status.sender);
@@ -248,7 +252,8 @@ class TestLiveFrame : public QObject {
         {"DECISION_ACTION_A", 8},     {"VISION_LOST", 0},        {"VISION_WORKING", 1},
         {"LOCALIZATION_WORKING", 1},  {"DECISION_WORKING", 1},   {"IMU_WORKING", 1},
         {"CONTROL_WORKING", 1},       {"VOLTAGE", 165}};
-    telemetry::GroupInfo group{"B3", {}, {{"attached", "1"}, {"robot", "3"}, {"number", "3"}}};
+    telemetry::GroupInfo group{
+        "B3", {}, telemetry::facts({{"attached", "1"}, {"robot", "3"}, {"number", "3"}})};
     std::vector<double> row;
     for (const auto& [name, value] : variables) {
       group.columns.emplace_back().name = name;
@@ -325,10 +330,11 @@ class TestLiveFrame : public QObject {
     telemetry::TeamSetup& setup = received.options.team.teams.emplace_back();
     setup.name = "RoboFEI";
     setup.number = 6;
-    QVERIFY(received.referee.accept(stateOfGame(), {{1}, 3838}, start));
+    QVERIFY(received.referee.accept(stateOfGame(), {{1}, 3838}, start) ==
+            RefereeTracker::Verdict::Shown);
     const MatchFrame frame = received.frame();
-    QCOMPARE(frame.referee->teams[0].name, std::string());
-    QCOMPARE(frame.referee->teams[1].name, std::string("RoboFEI"));
+    QVERIFY(teamName(frame.game->teams[0].number, frame.teams).empty());
+    QVERIFY(teamName(frame.game->teams[1].number, frame.teams) == "RoboFEI");
   }
 
   void theRefereeGivesColourScoreAndPenalties() {
@@ -338,13 +344,13 @@ class TestLiveFrame : public QObject {
     RefereeState state = stateOfGame();
     state.teams[1].allSlots[1].penalty = 1;
     state.teams[1].allSlots[1].secondsLeft = 30;
-    QVERIFY(received.referee.accept(state, {{1}, 3838}, start));
+    QVERIFY(received.referee.accept(state, {{1}, 3838}, start) == RefereeTracker::Verdict::Shown);
     received.team.time = start + 2s;
     const MatchFrame frame = received.frame();
-    QVERIFY(frame.referee);
-    QCOMPARE(frame.referee->ourTeam, 6);
-    QCOMPARE(frame.referee->age, 2.0);
-    QCOMPARE(frame.referee->teams[1].playersLeft, 3);
+    QVERIFY(frame.game);
+    QCOMPARE(frame.reception.ourTeam, 6);
+    QCOMPARE(frame.reception.age, 2.0);
+    QCOMPARE(frame.game->teams[1].playing(), 3);
     QVERIFY(frame.snapshot.score == (sim::Score{2, 1}));
     QCOMPARE(frame.snapshot.clock, 321.0);
     QVERIFY(frame.snapshot.clockRunning);
@@ -354,13 +360,13 @@ class TestLiveFrame : public QObject {
     // A number that does not play: the colour that the user chose, and nobody's penalty.
     received.options.ourTeam = 9;
     const MatchFrame other = received.frame();
-    QCOMPARE(other.referee->ourTeam, 0);
+    QCOMPARE(other.reception.ourTeam, 0);
     QVERIFY(other.robots.at(0).identity.team == TeamColor::Yellow);
     QVERIFY(!other.robots[0].penalty);
     // Ten seconds without a word: the state is shown, the clock is not said to run.
     received.team.time = start + 11s;
     const MatchFrame late = received.frame();
-    QVERIFY(late.referee->timedOut && !late.snapshot.clockRunning);
+    QVERIFY(late.reception.timedOut && !late.snapshot.clockRunning);
   }
 
   void substitutesThatCameInAreCounted() {
@@ -372,62 +378,56 @@ class TestLiveFrame : public QObject {
     state.teams[0].allSlots[1].penalty = 31;
     state.teams[0].allSlots[1].secondsLeft = 20;
     state.teams[0].allSlots[1].yellow = 1;
-    QVERIFY(received.referee.accept(state, {{1}, 3838}, start));
-    const RefereeTeamView team = received.frame().referee->teams[0];
-    QCOMPARE(team.playersLeft, 2);
-    QCOMPARE(team.players.size(), std::size_t{3});
-    QCOMPARE(team.players[0].number, 2);
-    QCOMPARE(team.players[0].penalty, std::string("pushing"));
-    QCOMPARE(team.players[0].secondsLeft, 20);
-    QCOMPARE(team.players[0].yellow, 1);
-    QVERIFY(team.players[2].penalty.empty());
-    QCOMPARE(team.players[2].number, 4);
+    QVERIFY(received.referee.accept(state, {{1}, 3838}, start) == RefereeTracker::Verdict::Shown);
+    const GameTeam team = received.frame().game->teams[0];
+    QCOMPARE(team.playing(), 2);
+    QCOMPARE(team.onField(), (std::vector<int>{2, 3, 4}));
+    QCOMPARE(team.player(2)->penalty, PenaltyKind::Pushing);
+    QCOMPARE(team.player(2)->ticksLeft, 20);
+    QCOMPARE(team.player(2)->yellow, 1);
+    QCOMPARE(team.player(4)->penalty, PenaltyKind::None);
   }
 
   void whoTakesASetPlayAndHowFarItIs_data() {
     QTest::addColumn<QString>("file");
-    QTest::addColumn<QString>("setPlay");
+    QTest::addColumn<SetPlay>("setPlay");
     QTest::addColumn<int>("team");
-    QTest::addColumn<QString>("step");
-    QTest::addColumn<QString>("countdown");
+    QTest::addColumn<Restart::Step>("step");
+    QTest::addColumn<CountdownTo>("countdown");
+    using enum SetPlay;
+    using Step = Restart::Step;
     // Recorded from the running programs; the last column is what the rules say of the time.
-    QTest::newRow("corner") << "v12hl688_CORNER_KICK"
-                            << "corner kick" << 1 << "stop"
-                            << "";
-    QTest::newRow("free kick, prepare") << "v12hl688_DIRECT_FREEKICK_sub1"
-                                        << "direct free kick" << 2 << "prepare"
-                                        << "ready";
-    QTest::newRow("free kick, ready") << "v12hl688_DIRECT_FREEKICK_sub2"
-                                      << "direct free kick" << 2 << "ready"
-                                      << "";
-    QTest::newRow("kick-off") << "v12hl688_PLAYING_1-0"
-                              << "" << 0 << ""
-                              << "ball free";
-    QTest::newRow("ready") << "v12hl688_READY"
-                           << "" << 0 << ""
-                           << "set";
-    QTest::newRow("timeout") << "v12hl688_TIMEOUT"
-                             << "timeout" << 0 << ""
-                             << "timeout over";
-    QTest::newRow("break") << "v20hsl158_FINISHED"
-                           << "" << 0 << ""
-                           << "next half";
+    QTest::newRow("corner") << "v12hl688_CORNER_KICK" << CornerKick << 1 << Step::Placing
+                            << CountdownTo::Nothing;
+    QTest::newRow("free kick, prepare") << "v12hl688_DIRECT_FREEKICK_sub1" << DirectFreeKick << 2
+                                        << Step::Preparing << CountdownTo::Ready;
+    QTest::newRow("free kick, ready") << "v12hl688_DIRECT_FREEKICK_sub2" << DirectFreeKick << 2
+                                      << Step::Taking << CountdownTo::Nothing;
+    QTest::newRow("kick-off") << "v12hl688_PLAYING_1-0" << None << 0 << Step::Executed
+                              << CountdownTo::BallFree;
+    QTest::newRow("ready") << "v12hl688_READY" << None << 0 << Step::Free << CountdownTo::Set;
+    QTest::newRow("timeout") << "v12hl688_TIMEOUT" << None << 0 << Step::Free
+                             << CountdownTo::TimeoutOver;
+    QTest::newRow("break") << "v20hsl158_FINISHED" << None << 0 << Step::Free
+                           << CountdownTo::NextHalf;
   }
   void whoTakesASetPlayAndHowFarItIs() {
     QFETCH(QString, file);
-    QFETCH(QString, setPlay);
+    QFETCH(SetPlay, setPlay);
     QFETCH(int, team);
-    QFETCH(QString, step);
-    QFETCH(QString, countdown);
+    QFETCH(Restart::Step, step);
+    QFETCH(CountdownTo, countdown);
     const auto decoded = telemetry::decodeReferee(recordedPacket(file));
     QVERIFY(decoded);
     Received received({});
-    QVERIFY(received.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start));
-    const RefereeView view = *received.frame().referee;
-    QCOMPARE(QString::fromStdString(view.setPlay), setPlay);
-    QCOMPARE(view.performingTeam.value_or(0), team);
-    QCOMPARE(QString::fromStdString(view.setPlayStep), step);
-    QCOMPARE(QString::fromStdString(view.countdown), countdown);
+    QVERIFY(received.referee.accept(std::get<RefereeState>(*decoded), {{1}, 3838}, start) ==
+            RefereeTracker::Verdict::Shown);
+    const Game game = *received.frame().game;
+    QCOMPARE(game.setPlay(), setPlay);
+    const int taker = game.setPlayTeam();
+    QCOMPARE(taker < 0 ? 0 : game.teams[static_cast<std::size_t>(taker)].number, team);
+    QCOMPARE(game.restart.step, step);
+    QCOMPARE(game.countdownTo(), countdown);
   }
 
   // A simulated match in words, and its packets as another studio would show them.
@@ -470,33 +470,34 @@ class TestLiveFrame : public QObject {
       QVERIFY(runner->waitUntilStill(60s));
       Received received({});
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
-      QVERIFY(received.referee.accept(std::get<RefereeState>(packet), {{1}, 3838}, start));
+      QVERIFY(received.referee.accept(std::get<RefereeState>(packet), {{1}, 3838}, start) ==
+              RefereeTracker::Verdict::Shown);
       const MatchFrame live = received.frame(), simulated = *runner->latest();
       RecordedFrames frames;
       const MatchFrame recorded = frames.frameAt(store, static_cast<double>(tick) / 60.0);
-      QCOMPARE(textOf(*simulated.referee), textOf(*live.referee));
-      QCOMPARE(textOf(*recorded.referee), textOf(*live.referee));
-      countdowns << QString::fromStdString(live.referee->countdown);
+      QCOMPARE(textOf(*simulated.game), textOf(*live.game));
+      QCOMPARE(textOf(*recorded.game), textOf(*live.game));
+      countdowns << QString::fromStdString(std::string(labelOf(live.game->countdownTo())));
       for (const RobotFrame& robot : simulated.robots) {
-        const int number = robot.identity.team == TeamColor::Blue ? 12 : 5;
-        const auto penalty =
-            penaltyOf(std::get<RefereeState>(packet), number, robot.identity.number);
+        const int team = live.game->teamNumbered(robot.identity.team == TeamColor::Blue ? 12 : 5);
+        const GameTeam& own = live.game->teams[static_cast<std::size_t>(team)];
+        const auto penalty = penaltyOf(*live.game, own.player(robot.identity.number));
         QVERIFY(robot.penalty == penalty);
         QVERIFY(recorded.robot(robot.key)->penalty == penalty);
       }
     };
-    using enum sim::PlayState;
+    using enum PlayState;
     check({.kind = CallKind::KickOff, .team = 1});
     check({.kind = CallKind::State, .state = Ready});
     check({.kind = CallKind::State, .state = Set});
     check({.kind = CallKind::State, .state = Playing});
-    check({.kind = CallKind::Penalise, .robot = {2}, .penalty = sim::PenaltyKind::Pushing});
+    check({.kind = CallKind::Penalise, .robot = {2}, .penalty = PenaltyKind::Pushing});
     check({.kind = CallKind::Card, .robot = {4}, .value = 1});
-    check({.kind = CallKind::Penalise, .robot = {5}, .penalty = sim::PenaltyKind::Substitute});
+    check({.kind = CallKind::Penalise, .robot = {5}, .penalty = PenaltyKind::Substitute});
     check({.kind = CallKind::Goal, .team = 0, .value = 1});
     check({.kind = CallKind::State, .state = Set});
     check({.kind = CallKind::State, .state = Playing});
-    check({.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::CornerKick});
+    check({.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::CornerKick});
     check({.kind = CallKind::NextStep});
     check({.kind = CallKind::NextStep});
     check({.kind = CallKind::State, .state = Finished});
@@ -510,11 +511,12 @@ class TestLiveFrame : public QObject {
     Received received({});
     RefereeState hidden = stateOfGame();
     hidden.state = 2;
-    QVERIFY(received.referee.accept(hidden, {{1}, 3838}, start));
+    QVERIFY(received.referee.accept(hidden, {{1}, 3838}, start) == RefereeTracker::Verdict::Shown);
     RefereeState truth = stateOfGame();
     truth.magic = {'R', 'G', 'T', 'D'};
     truth.secsRemaining = 318;
-    QVERIFY(!received.referee.accept(truth, {{1}, 3838}, start + 1s));
+    QVERIFY(received.referee.accept(truth, {{1}, 3838}, start + 1s) ==
+            RefereeTracker::Verdict::TrueData);
     telemetry::RobotReply reply;
     reply.version = 4;
     reply.team = 6;
@@ -524,17 +526,18 @@ class TestLiveFrame : public QObject {
     reply.ballAge = -1.0F;
     received.referee.accept(reply, {0x0a000007}, start + 1s);
     received.team.time = start + 3s;
-    const RefereeView view = *received.frame().referee;
-    QCOMPARE(view.state, std::string("SET"));
-    QVERIFY(view.truth);
-    QCOMPARE(view.truth->state, std::string("PLAYING"));
-    QCOMPARE(view.truth->secondsLeft, 318);
-    QCOMPARE(view.truth->age, 2.0);
-    QCOMPARE(view.replies.size(), std::size_t{1});
-    QCOMPARE(view.replies[0].address, std::string("10.0.0.7"));
-    QVERIFY(view.replies[0].fallen && !view.replies[0].ballAge);
-    QCOMPARE(view.replies[0].pose->position.x, 1.5);
-    QCOMPARE(view.replies[0].age, 2.0);
+    const MatchFrame frame = received.frame();
+    QCOMPARE(frame.game->state, PlayState::Set);
+    const RefereeReception& reception = frame.reception;
+    QVERIFY(reception.truth);
+    QCOMPARE(reception.truth->state, PlayState::Playing);
+    QCOMPARE(reception.truth->secondsLeft(), 318);
+    QCOMPARE(reception.truthAge, 2.0);
+    QCOMPARE(reception.replies.size(), std::size_t{1});
+    QCOMPARE(reception.replies[0].address, std::string("10.0.0.7"));
+    QVERIFY(reception.replies[0].fallen && !reception.replies[0].ballAge);
+    QCOMPARE(reception.replies[0].pose->position.x, 1.5);
+    QCOMPARE(reception.replies[0].age, 2.0);
   }
 
   void coloursByNumber() {

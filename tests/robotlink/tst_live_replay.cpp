@@ -138,7 +138,7 @@ class TestLiveReplay : public QObject {
         ++sent;
       }
       if (step == 5) {
-        options.ourTeam = m_screen->last().referee->teams[1].number;
+        options.ourTeam = m_screen->last().game->teamAt(true).number;
         watch.setOptions(options);
       }
       QTRY_VERIFY(received());
@@ -146,7 +146,7 @@ class TestLiveReplay : public QObject {
       const std::size_t seen = m_screen->frames().size();
       QTRY_VERIFY(m_screen->frames().size() >= seen + 2);
     }
-    QTRY_VERIFY(m_screen->last().referee && m_screen->last().referee->ourTeam == options.ourTeam);
+    QTRY_VERIFY(m_screen->last().game && m_screen->last().reception.ourTeam == options.ourTeam);
     watch.stopObserving(m_screen);
     watch.stopObserving(*recorder);
     watch.stopObserving(m_memory);
@@ -158,7 +158,7 @@ class TestLiveReplay : public QObject {
     QVERIFY(m_frames.size() >= 16);
     const MatchFrame& last = m_frames.back();
     QCOMPARE(last.robots.size(), std::size_t{4});
-    QVERIFY(last.referee && !last.teamBalls.empty());
+    QVERIFY(last.game && !last.teamBalls.empty());
     const auto any = [&](auto&& what) { return std::ranges::any_of(last.robots, what); };
     QVERIFY(any([](const RobotFrame& r) { return r.penalty.has_value(); }));
     QVERIFY(any([](const RobotFrame& r) { return r.link->conflict; }));
@@ -242,7 +242,7 @@ class TestLiveReplay : public QObject {
       QVERIFY2(found.isEmpty(), qPrintable(found));
     }
     // Its first moment is there also when a sum of seconds is rounded to just before it.
-    QVERIFY(frames.frameAt(*session, std::nextafter(session->range()->begin, 0.0)).referee);
+    QVERIFY(frames.frameAt(*session, std::nextafter(session->range()->begin, 0.0)).game);
   }
 
   void aClipOfOneRobotHoldsNothingOfOthers_data() {
@@ -255,10 +255,9 @@ class TestLiveReplay : public QObject {
     const auto session = telemetry::SessionReader::open(m_path);
     QVERIFY(session);
     telemetry::ExportSelection selection;
-    selection.robots = groupsNamed(*session, {"Robot 1"});
-    QCOMPARE(selection.robots, std::vector<std::string>{"B1"});
+    selection.robots = {"Robot 1"};  // B1, as it was called at first
     if (fromTheMiddle) selection.range.begin = m_frames[m_frames.size() / 2].snapshot.time;
-    chooseRobots(*session, telemetry::ExportFormat::Mcap, selection);
+    QVERIFY(chooseRobots(*session, telemetry::ExportFormat::Mcap, selection));
     const std::string path =
         m_folder.filePath(fromTheMiddle ? "one.mcap" : "part.mcap").toStdString();
     const auto report =
@@ -279,7 +278,9 @@ class TestLiveReplay : public QObject {
     for (const telemetry::SessionEvent& event : clip->events()) {
       QVERIFY2(event.group.empty() || event.group.ends_with("1"), event.group.c_str());
     }
-    RecordedFrames frames(backdropOf(*clip)), only(backdropOf(*session), {"Robot 1"});
+    RecordedFrames frames(backdropOf(*clip)),
+        only(backdropOf(*session),
+             RobotChoice::of(*session, std::vector<std::string>{"Robot 1"}).value());
     for (const MatchFrame& seen : m_frames) {
       if (seen.snapshot.time < selection.range.begin) continue;
       // Pictures and videos of the session show what the clip shows.
@@ -289,7 +290,7 @@ class TestLiveReplay : public QObject {
         QCOMPARE(frame.robots[0].identity, seen.robots[0].identity);
         QCOMPARE(frame.robots[0].pose, seen.robots[0].pose);
         QCOMPARE(frame.robots[0].link->messages, seen.robots[0].link->messages);
-        QCOMPARE(frame.referee.has_value(), seen.referee.has_value());
+        QCOMPARE(frame.game.has_value(), seen.game.has_value());
         QVERIFY(frame.snapshot.score == seen.snapshot.score);
       }
     }
@@ -299,13 +300,13 @@ class TestLiveReplay : public QObject {
     const auto session = telemetry::SessionReader::open(m_path);
     QVERIFY(session);
     const auto range = *session->range();
-    const SessionStatistics s = statisticsOf(*session, {range.begin, range.end});
+    const MatchStatistics s = statisticsOf(*session, {range.begin, range.end});
     QCOMPARE(s.robots.size(), std::size_t{4});
-    const RefereeView& referee = *m_frames.back().referee;
+    const Game& game = *m_frames.back().game;
     std::size_t scored = 0;
     for (const TeamSummary& team : s.teams) {
-      for (const RefereeTeamView& side : referee.teams) {
-        if (info(team.team).name != side.colour) continue;
+      for (const GameTeam& side : game.teams) {
+        if (team.team != side.colour) continue;
         ++scored;
         QCOMPARE(team.score, std::optional(side.score));
       }
@@ -317,12 +318,12 @@ class TestLiveReplay : public QObject {
       QVERIFY2(shown != m_frames.back().robots.end(), robot.name.c_str());
       QVERIFY(robot.link && robot.distance);
       QCOMPARE(robot.link->messages, shown->link->messages);
-      QCOMPARE(robot.link->penalties, shown->penalty ? 1 : 0);
+      QCOMPARE(robot.penalties, shown->penalty ? 1U : 0U);
     }
     // The first robot walked 7 cm a message: what it believes, in steps of at least 10 cm.
     const auto& first = s.robots.front();
     QVERIFY(*first.distance > 0.3 && *first.distance < 0.6);
-    QVERIFY(*first.link->leastVolts < 15.0);
+    QVERIFY(*first.link->minVolts < 15.0);
     ReportContent content;
     content.statistics = s;
     const QString page = QString::fromStdString(reportHtml(content));

@@ -8,9 +8,12 @@
 #include <telemetry/series/derived_curve.h>
 #include <telemetry/series/series_store.h>
 
+#include "../support/group_facts.h"
+
 namespace tst_live_rows {
 
 using namespace pitchboard::telemetry;
+using pitchboard::link::LiveRows;
 using namespace std::chrono_literals;
 
 namespace {
@@ -20,7 +23,7 @@ const WallTime zero{std::chrono::seconds(1'700'000'000)};
 struct Rig {
   std::shared_ptr<SeriesStore> store = std::make_shared<SeriesStore>();
   TeamMonitor monitor{publishedProfile()};
-  LiveRows rows{store, {.zero = zero, .teams = {}, .attributes = {}}};
+  LiveRows rows{store, {.zero = zero, .teams = {}, .describe = {}}};
 
   TeamMonitor::Verdict send(const std::string& text, double time, const char* from = "10.0.0.1") {
     DatagramView datagram;
@@ -70,8 +73,8 @@ class TestLiveRows : public QObject {
     QVERIFY(info.columns[7].kind == ColumnKind::Flag);
     QVERIFY(info.columns[12].kind == ColumnKind::Enumeration);
     QCOMPARE(info.columns[12].labels.at(8), pitchboard::actionLabel(8));
-    QCOMPARE(info.attributes.at("number"), std::string("3"));
-    QCOMPARE(info.attributes.at("sender"), std::string("10.0.0.1"));
+    QCOMPARE(attributesOf(info).at("number"), std::string("3"));
+    QCOMPARE(attributesOf(info).at("sender"), std::string("10.0.0.1"));
   }
 
   void oneRowForEachMessageAtThePublishedRate() {
@@ -129,7 +132,7 @@ class TestLiveRows : public QObject {
     const auto view = rig.view("Robot 3 link");
     QVERIFY(view);
     QVERIFY(view->rows() >= 4 && view->rows() <= 5);
-    QCOMPARE(view->info().attributes.at("link"), std::string("Robot 3"));
+    QCOMPARE(attributesOf(view->info()).at("link"), std::string("Robot 3"));
     QVERIFY(std::abs(rig.latest("Robot 3 link", "RATE") - 10.0) < 0.01);
     QVERIFY(std::isnan(rig.latest("Robot 3 link", "LOSS")));  // it sends no sequence number
     QVERIFY(!rig.store->find("Robot 3", "RATE"));
@@ -262,7 +265,7 @@ class TestLiveRows : public QObject {
     for (int i = 0; i < 3; ++i) rig.send(message, i * 1.0, "10.0.0.1");
     for (int i = 3; i < 6; ++i) rig.send(message, i * 1.0, "10.0.0.9");
     QCOMPARE(rig.view("Robot 3")->rows(), std::size_t{6});
-    QCOMPARE(rig.view("Robot 3")->info().attributes.at("sender"), std::string("10.0.0.9"));
+    QCOMPARE(attributesOf(rig.view("Robot 3")->info()).at("sender"), std::string("10.0.0.9"));
     QVERIFY(!rig.view("Robot 3 (2)"));
   }
 
@@ -285,7 +288,7 @@ class TestLiveRows : public QObject {
       rig.send(text + " OUT", i * 0.036);
       if (i % 28 == 0) rig.report(i * 0.036);
     }
-    QVERIFY(rig.store->groups() <= 2 * MonitorOptions::mostRobots(0));
+    QVERIFY(rig.store->groups() <= 2 * MonitorOptions::maxRobots(0));
     for (GroupId id = 0; id < rig.store->groups(); ++id) {
       QVERIFY(rig.store->view(id)->info().columns.size() <= LiveRows::maxColumns);
     }

@@ -8,6 +8,8 @@
 #include <robotlink/live/live_teams.h>
 #include <telemetry/series/series_store.h>
 
+#include "../support/group_facts.h"
+
 namespace tst_live_teams {
 
 using namespace pitchboard;
@@ -53,7 +55,7 @@ class TestLiveTeams : public QObject {
       if (!validate(options)) qFatal("a model is unknown");
       LivePipeline pipeline(options, start);
       pipeline.take(from("10.0.0.3", 1243, words));
-      const MatchFrame frame = pipeline.frame(start, nullptr);
+      const MatchFrame frame = pipeline.advance(start, nullptr);
       return frame.robots.at(0).battery->low;
     };
     QVERIFY(lowWith(""));
@@ -85,7 +87,7 @@ class TestLiveTeams : public QObject {
     QCOMPARE(team.robots[0].key, (RobotKey{1, 3, 0}));
     QCOMPARE(team.robots[1].key, (RobotKey{2, 3, 0}));
     QCOMPARE(team.robots[1].value(FieldMeaning::X), std::optional(600.0));
-    const Teams teams = teamsOf(options, nullptr);
+    const Teams teams = teamsOf(options, {});
     QCOMPARE(drawnColour(options, team.robots[0].key, teams), TeamColor::Blue);
     QCOMPARE(drawnColour(options, team.robots[1].key, teams), TeamColor::Red);
     QCOMPARE(teams.at(2).number, 7);
@@ -93,22 +95,19 @@ class TestLiveTeams : public QObject {
     QCOMPARE(options.team.teams[1].title(), std::string("Team 7"));
   }
 
-  /// A frame from before would show nobody under the new name, and drop what is selected.
-  void robotsAreRenamedWithTheFrameThatShowsIt() {
+  void aRobotKeepsItsUidUnderAnotherKey() {
     LiveOptions options;
     LivePipeline pipeline(options, start);
     pipeline.take(from("10.0.0.3", 1243, words));
-    QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{0, 3, 0}));
+    const MatchFrame before = pipeline.advance(start);
+    QCOMPARE(before.robots.at(0).key, (RobotKey{0, 3, 0}));
     options.team.teams = {setupOf(R"({"number": 12, "colour": "blue"})")};
     pipeline.setOptions(options, start);
     pipeline.take(from("10.0.0.3", 1243, words));
-    QVERIFY(pipeline.takeNews().renamings.empty());
-    QCOMPARE(pipeline.frame(start).robots.at(0).key, (RobotKey{1, 3, 0}));
-    const auto renamings = pipeline.takeNews().renamings;
-    QCOMPARE(renamings.size(), std::size_t{1});
-    QCOMPARE(renamings[0].size(), std::size_t{1});
-    QCOMPARE(renamed({0, 3, 0}, renamings[0]), (RobotKey{1, 3, 0}));
-    QVERIFY(pipeline.takeNews().renamings.empty());
+    const MatchFrame now = pipeline.advance(start);
+    QCOMPARE(now.robots.at(0).key, (RobotKey{1, 3, 0}));
+    QVERIFY(now.robots[0].uid != RobotUid{});
+    QCOMPARE(now.robots[0].uid, before.robots[0].uid);
   }
 
   /// The same curve has the same name as in a simulation.
@@ -116,7 +115,7 @@ class TestLiveTeams : public QObject {
     const LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, {}), start));
     const std::string ball = R"({["id"]=3,["ball"]={["x"]=0.6,["y"]=0}})";
     QCOMPARE(monitor.take(from("10.0.1.3", 12003, ball)), TeamMonitor::Verdict::Used);
     rows.take(from("10.0.1.3", 12003, ball), monitor.decoded(), monitor.decoder(), monitor.used());
@@ -129,8 +128,8 @@ class TestLiveTeams : public QObject {
         found = true;
         QCOMPARE(column.unit, std::string("cm"));
       }
-      QCOMPARE(view->info().attributes.at("team"), std::string("red"));
-      QCOMPARE(view->info().attributes.at("number"), std::string("3"));
+      QCOMPARE(attributesOf(view->info()).at("team"), std::string("red"));
+      QCOMPARE(attributesOf(view->info()).at("number"), std::string("3"));
     }
     QVERIFY(found);
   }
@@ -142,18 +141,18 @@ class TestLiveTeams : public QObject {
     }
     QVERIFY(chooseOurTeam(options, "12"));
     QCOMPARE(options.ourTeam, 12);
-    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("Robot 3"));
+    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, {})), std::string("Robot 3"));
     QVERIFY(chooseOurTeam(options, "red"));
     QCOMPARE(options.ourTeam, 0);
-    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, nullptr)), std::string("R3"));
+    QCOMPARE(robotName({0, 3, 0}, teamsOf(options, {})), std::string("R3"));
     // Once a referee is received, the number is that of the team with this colour.
     RefereeState state;
     state.teams[0].number = 12;
     state.teams[0].colour = 0;
     state.teams[1].number = 7;
     state.teams[1].colour = 1;
-    QCOMPARE(ourNumber(options, &state), 7);
-    QCOMPARE(teamsOf(options, &state)[0].number, 7);
+    QCOMPARE(ourNumber(options, telemetry::gameOf(state)), 7);
+    QCOMPARE(teamsOf(options, telemetry::gameOf(state))[0].number, 7);
     const auto again = LiveState::read(LiveState(options).text(options, 0.0, start), start);
     QVERIFY(again && again->options.ourColour == TeamColor::Red);
   }
@@ -161,7 +160,7 @@ class TestLiveTeams : public QObject {
   void ourTeamIsListedFirst() {
     LiveOptions options = twoTeams();
     const auto order = [&options] {
-      const Teams teams = teamsOf(options, nullptr);
+      const Teams teams = teamsOf(options, {});
       std::vector<RobotKey> robots{{2, 3, 0}, {1, 10, 0}, {1, 2, 1}, {1, 2, 0}};
       std::ranges::sort(robots, {}, [&](const RobotKey& robot) { return orderOf(robot, teams); });
       return robots;
@@ -179,14 +178,15 @@ class TestLiveTeams : public QObject {
   void messagesOfARobotWithABlackboardStandBesideIt() {
     const LiveOptions options = twoTeams();
     auto store = std::make_shared<SeriesStore>();
-    const std::map<RobotKey, std::string> boards{{{1, 3, 0}, "B3"}};
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start, boards));
+    const auto uids = std::make_shared<RobotUids>();
+    const RobotUid uid = uids->ofMessages({1, 3, 0}, from("10.0.0.3", 1243, words).sender.address);
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, {}), start, {{uid, "B3"}}), uids);
     TeamMonitor monitor(options.profile, monitorOptions(options));
     QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
     rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
     QVERIFY(store->findGroup("B3 telemetry") && store->findGroup("B3 link"));
     QVERIFY(!store->findGroup("B3"));
-    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
+    rows.setOptions(rowsOptions(options, teamsOf(options, {}), start));
     QVERIFY(store->findGroup("B3") && !store->findGroup("B3 telemetry"));
   }
 
@@ -208,7 +208,7 @@ class TestLiveTeams : public QObject {
     LiveOptions options = twoTeams();
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, {}), start));
     const auto send = [&](double time) {
       DatagramView datagram = from("10.0.0.3", 1243, words);
       datagram.time += std::chrono::duration_cast<Duration>(std::chrono::duration<double>(time));
@@ -217,10 +217,10 @@ class TestLiveTeams : public QObject {
     };
     send(1.0);
     options.team.teams[0].colour = "yellow";
-    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
+    rows.setOptions(rowsOptions(options, teamsOf(options, {}), start));
     send(2.0);
     options.team.teams[0].colour = "blue";
-    rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), {});
+    rows.setOptions(rowsOptions(options, teamsOf(options, {}), start));
     send(3.0);
     const auto count = [&store](const char* name) {
       const auto group = store->findGroup(name);
@@ -235,18 +235,18 @@ class TestLiveTeams : public QObject {
     LiveState state(options);
     TeamMonitor& monitor = state.monitor;
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, {}), start), state.uids);
     const auto send = [&](int second, const char* address) {
       DatagramView datagram = from(address, 1243, words);
       datagram.time += std::chrono::seconds(second);
       QCOMPARE(state.takeRobot(datagram, second), TeamMonitor::Verdict::Used);
-      rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
+      rows.setOptions(rowsOptions(options, teamsOf(options, {}), start));
       rows.take(datagram, monitor.decoded(), monitor.decoder(), monitor.used());
     };
     const auto apply = [&](std::vector<TeamSetup> teams) {
       options.team.teams = std::move(teams);
       state.setTeams(monitorOptions(options));
-      rows.setOptions(rowsOptions(options, teamsOf(options, nullptr), start), monitor.renamings());
+      rows.setOptions(rowsOptions(options, teamsOf(options, {}), start));
     };
     const auto theOnlyOne = [&](int second) {
       const auto robots = monitor.status(start + std::chrono::seconds(second)).robots;
@@ -286,43 +286,32 @@ class TestLiveTeams : public QObject {
     packet.teams[0].colour = 1;  // red
     packet.teams[1].number = 7;
     packet.teams[1].colour = 0;  // blue
-    const auto nameOf = [&](const RobotKey& robot, const RefereeState* referee) {
-      return robotName(robot, teamsOf(options, referee));
+    const auto nameOf = [&](const RobotKey& robot, const std::optional<Game>& game) {
+      return robotName(robot, teamsOf(options, game));
     };
-    QCOMPARE(nameOf({0, 3, 0}, nullptr), std::string("Robot 3"));
-    QCOMPARE(nameOf({0, 3, 0}, &packet), std::string("Robot 3"));
+    QCOMPARE(nameOf({0, 3, 0}, {}), std::string("Robot 3"));
+    QCOMPARE(nameOf({0, 3, 0}, telemetry::gameOf(packet)), std::string("Robot 3"));
     options.ourTeam = 12;
-    QCOMPARE(nameOf({0, 3, 0}, nullptr), std::string("Robot 3"));
-    QCOMPARE(nameOf({0, 3, 0}, &packet), std::string("R3"));
+    QCOMPARE(nameOf({0, 3, 0}, {}), std::string("Robot 3"));
+    QCOMPARE(nameOf({0, 3, 0}, telemetry::gameOf(packet)), std::string("R3"));
     options.team.teams = {setupOf(R"({"number": 12})"),
                           setupOf(R"({"name": "Guests", "number": 7})")};
-    QCOMPARE(nameOf({1, 3, 0}, nullptr), std::string("Robot 3"));
-    QCOMPARE(nameOf({2, 3, 0}, nullptr), std::string("Guests 3"));
-    QCOMPARE(nameOf({1, 3, 0}, &packet), std::string("R3"));
-    QCOMPARE(nameOf({2, 3, 1}, &packet), std::string("B3 (2)"));
+    QCOMPARE(nameOf({1, 3, 0}, {}), std::string("Robot 3"));
+    QCOMPARE(nameOf({2, 3, 0}, {}), std::string("Guests 3"));
+    QCOMPARE(nameOf({1, 3, 0}, telemetry::gameOf(packet)), std::string("R3"));
+    QCOMPARE(nameOf({2, 3, 1}, telemetry::gameOf(packet)), std::string("B3 (2)"));
 
     TeamMonitor monitor(options.profile, monitorOptions(options));
     auto store = std::make_shared<SeriesStore>();
-    LiveRows rows(store, rowsOptions(options, teamsOf(options, nullptr), start));
+    LiveRows rows(store, rowsOptions(options, teamsOf(options, {}), start));
     QCOMPARE(monitor.take(from("10.0.0.3", 1243, words)), TeamMonitor::Verdict::Used);
     rows.take(from("10.0.0.3", 1243, words), monitor.decoded(), monitor.decoder(), monitor.used());
     const auto group = store->findGroup("Robot 3");
     QVERIFY(group && store->find("Robot 3", "VISION_BALL_DIST"));
-    QVERIFY(!store->view(*group)->info().attributes.contains("team"));
-    rows.setOptions(rowsOptions(options, teamsOf(options, &packet), start), {});
+    QVERIFY(!factsOf(store->view(*group)->info()).team);
+    rows.setOptions(rowsOptions(options, teamsOf(options, telemetry::gameOf(packet)), start));
     QCOMPARE(store->findGroup("R3"), group);
-    QCOMPARE(store->view(*group)->info().attributes.at("team"), std::string("red"));
-  }
-
-  void aNameMeansTheOnlyRobotThatMayHaveIt() {
-    const std::vector<std::string> known{"B1", "R1", "Robot 2", "B3 (2)"};
-    const auto named = [&](const char* name) { return robotNamed(name, known).value_or("none"); };
-    QCOMPARE(named("B1"), std::string("B1"));
-    QCOMPARE(named("Robot 1"), std::string("none"));
-    QCOMPARE(named("B2"), std::string("Robot 2"));
-    QCOMPARE(named("Robot 3 (2)"), std::string("B3 (2)"));
-    QCOMPARE(named("Robot 3"), std::string("none"));
-    QCOMPARE(named("R3 (2)"), std::string("none"));
+    QCOMPARE(attributesOf(store->view(*group)->info()).at("team"), std::string("red"));
   }
 
   void snapshotsKeepTheSetups() {

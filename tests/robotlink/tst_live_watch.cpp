@@ -4,9 +4,14 @@
 
 #include <QtTest>
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <condition_variable>
 #include <mutex>
+#include <set>
+#include <thread>
 
+#include <robotlink/live/live_pipeline.h>
 #include <robotlink/live/live_watch.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/wire/text_protocol.h>
@@ -72,12 +77,162 @@ class Witness : public LiveObserver {
   std::shared_ptr<telemetry::SeriesStore> store = std::make_shared<telemetry::SeriesStore>();
 };
 
+/// Notes the threads on which it is called, as an observer and as a sink of rows.
+class ThreadWitness : public LiveObserver,
+                      public telemetry::RowSink,
+                      public std::enable_shared_from_this<ThreadWitness> {
+ public:
+  void received(const LiveDatagram&) override { note("received"); }
+  void happened(const MatchEvent&) override { note("happened"); }
+  void frameMade(const MatchFrame&) override { note("frameMade"); }
+  void remembered(double, std::string_view) override { note("remembered"); }
+  std::shared_ptr<telemetry::RowSink> rows() override {
+    note("rows");
+    return shared_from_this();
+  }
+  telemetry::GroupId addGroup(const telemetry::GroupInfo&) override {
+    note("addGroup");
+    return m_groups++;
+  }
+  void describeGroups(std::span<const telemetry::GroupInfo>) override { note("describeGroups"); }
+  void append(telemetry::GroupId, const telemetry::RowView&) override { note("append"); }
+
+  bool knows(const char* call) {
+    const std::lock_guard lock(m_mutex);
+    return m_calls.contains(call);
+  }
+  std::set<std::thread::id> threads() {
+    const std::lock_guard lock(m_mutex);
+    return m_threads;
+  }
+
+ private:
+  void note(const char* call) {
+    const std::lock_guard lock(m_mutex);
+    m_calls.insert(call);
+    m_threads.insert(std::this_thread::get_id());
+  }
+  std::mutex m_mutex;
+  std::set<std::string> m_calls;
+  std::set<std::thread::id> m_threads;
+  telemetry::GroupId m_groups = 0;
+};
+
+/// Keeps the watch's thread in the middle of decoding, at most for some seconds.
+class Obstacle : public LiveObserver {
+ public:
+  void received(const LiveDatagram&) override {
+    std::unique_lock lock(m_mutex);
+    m_isHeld = true;
+    m_changed.notify_all();
+    m_changed.wait_for(lock, std::chrono::seconds(10), [this] { return m_isFree; });
+  }
+  bool waitUntilHeld() {
+    std::unique_lock lock(m_mutex);
+    return m_changed.wait_for(lock, std::chrono::seconds(10), [this] { return m_isHeld; });
+  }
+  void free() {
+    const std::lock_guard lock(m_mutex);
+    m_isFree = true;
+    m_changed.notify_all();
+  }
+
+ private:
+  std::mutex m_mutex;
+  std::condition_variable m_changed;
+  bool m_isHeld = false, m_isFree = false;
+};
+
+/// Counts everything that a pipeline writes.
+struct Count : LiveObserver {
+  struct Rows : telemetry::RowSink {
+    telemetry::GroupId addGroup(const telemetry::GroupInfo&) override { return groups++; }
+    void describeGroups(std::span<const telemetry::GroupInfo>) override { ++count; }
+    void append(telemetry::GroupId, const telemetry::RowView&) override { ++count; }
+    telemetry::GroupId groups = 0;
+    int count = 0;
+  };
+  void happened(const MatchEvent&) override { ++events; }
+  void frameMade(const MatchFrame&) override { ++frames; }
+  void remembered(double, std::string_view) override { ++snapshots; }
+  std::shared_ptr<telemetry::RowSink> rows() override { return sink; }
+  std::array<int, 4> all() const { return {sink->count, events, frames, snapshots}; }
+
+  std::shared_ptr<Rows> sink = std::make_shared<Rows>();
+  int events = 0, frames = 0, snapshots = 0;
+};
+
 }  // namespace
 
 class TestLiveWatch : public QObject {
   Q_OBJECT
 
  private slots:
+  /// The default start and then Live showed eight simulated robots and their referee as real ones.
+  void simulatedRobotsAreNotTakenForRealOnes() {
+    const telemetry::WallTime zero{std::chrono::seconds(1'000'000)};
+    LiveOptions options;
+    const auto take = [&](LivePipeline& pipeline, telemetry::Address from, int port,
+                          const std::string& text, int millisecond) {
+      pipeline.take({zero + std::chrono::milliseconds(millisecond),
+                     {from, 4000},
+                     static_cast<std::uint16_t>(port),
+                     false,
+                     text});
+    };
+    const telemetry::Address real{0xc0a80107};
+    const std::string played = recordedPacket("v12hl688_PLAYING_1-0"),
+                      other = recordedPacket("v12hl688_PLAYING_1-0");
+    {
+      LivePipeline pipeline(options, zero);
+      take(pipeline, telemetry::simulatedAddress, 1241, message(1), 0);
+      take(pipeline, telemetry::simulatedAddress, 3838, played, 0);
+      const MatchFrame frame = pipeline.advance(zero + std::chrono::milliseconds(10));
+      QVERIFY(frame.robots.empty());
+      QVERIFY(!frame.game);
+      QCOMPARE(pipeline.details(zero).ignoredSimulated, std::uint64_t{2});
+    }
+    options.simulated = true;
+    LivePipeline pipeline(options, zero);
+    take(pipeline, telemetry::simulatedAddress, 1241, message(1), 0);
+    take(pipeline, real, 1241, message(1, 500), 1);
+    take(pipeline, telemetry::simulatedAddress, 3838, played, 2);
+    MatchFrame frame = pipeline.advance(zero + std::chrono::milliseconds(10));
+    QCOMPARE(frame.robots.size(), std::size_t{2});
+    QCOMPARE(frame.robots[0].name, std::string("Robot 1"));
+    QCOMPARE(frame.robots[1].name, std::string("Simulated 1"));
+    QVERIFY(!frame.robots[0].link->conflict);
+    QVERIFY(frame.reception.sender.starts_with(telemetry::simulatedAddress.text()));
+    // The real referee comes, at once; then it is silent for long, and is not replaced.
+    take(pipeline, real, 3838, other, 20);
+    frame = pipeline.advance(zero + std::chrono::milliseconds(30));
+    QVERIFY(frame.reception.sender.starts_with(real.text()));
+    take(pipeline, telemetry::simulatedAddress, 3838, played, 60'000);
+    frame = pipeline.advance(zero + std::chrono::seconds(60));
+    QVERIFY(frame.reception.sender.starts_with(real.text()));
+    QVERIFY(frame.reception.timedOut);
+    // A recording shows them as they were called.
+    const std::string saved = [&] {
+      struct Keeper : LiveObserver {
+        void remembered(double, std::string_view text) override { kept = text; }
+        std::string kept;
+      };
+      const auto keeper = std::make_shared<Keeper>();
+      pipeline.observe(keeper, zero + std::chrono::seconds(1));
+      return keeper->kept;
+    }();
+    auto read = LiveState::read(saved, zero);
+    QVERIFY(read);
+    const auto status = read->state.monitor.status(zero + std::chrono::seconds(1));
+    QCOMPARE(status.robots.back().key, (RobotKey{telemetry::simulatedTeam, 1, 0}));
+    // Turned off again.
+    options.simulated = false;
+    pipeline.setOptions(options, zero + std::chrono::seconds(1));
+    frame = pipeline.advance(zero + std::chrono::seconds(1));
+    QCOMPARE(frame.robots.size(), std::size_t{1});
+    QCOMPARE(frame.robots[0].name, std::string("Robot 1"));
+  }
+
   void portsThatCollideAreRefused() {
     LiveOptions options;
     QVERIFY(validate(options));
@@ -106,13 +261,13 @@ class TestLiveWatch : public QObject {
     const auto frame = watch.take().frame;
     QCOMPARE(frame->origin, FrameOrigin::Live);
     QVERIFY(!frame->truthKnown);
+    // No robot can be blamed for what names none.
+    QTRY_VERIFY(watch.details().team.errors.messages() > 0);
     const telemetry::TeamStatus team = watch.details().team;
     QCOMPARE(team.robots.size(), std::size_t{2});
     QCOMPARE(team.robots[0].key.number, 1);
     QCOMPARE(team.robots[1].key.number, 3);
     QCOMPARE(team.robots[1].sender.port, three.port());
-    // No robot can be blamed for what names none.
-    QVERIFY(team.errors.messages() > 0);
     QCOMPARE(team.robots[1].errors.messages(), std::uint64_t{0});
     const std::lock_guard lock(witness->mutex);
     QCOMPARE(witness->numbers, (std::vector<int>{1, 3}));
@@ -167,6 +322,87 @@ class TestLiveWatch : public QObject {
     QCOMPARE(rowsOf(*gone, "Robot 2"), std::size_t{1});
   }
 
+  /// stopObserving() made a frame on the caller's thread, and observe() a snapshot.
+  void anObserverIsCalledOnOneThread() {
+    LiveOptions options = freeOptions();
+    options.variablesPortBase = options.refereePort;
+    LiveWatch watch(options);
+    const auto witness = std::make_shared<ThreadWitness>();
+    watch.observe(witness);
+    QTRY_COMPARE(bound(watch), std::size_t{7});
+    const TestSocket robot;
+    QVERIFY(robot.send(portOf(options, 2), message(2)));
+    for (const char* call : {"received", "happened", "frameMade", "append"}) {
+      QTRY_VERIFY2(witness->knows(call), call);
+    }
+    const auto variables = static_cast<std::uint16_t>(options.variablesPortBase + 2);
+    QVERIFY(robot.send(variables, "PB2 2 1 1000 DECISION_ACTION=8 OUT"));
+    watch.setOptions(options);
+    QTRY_COMPARE(watch.details().sent.size(), std::size_t{1});
+    watch.stopObserving(witness);
+    QVERIFY(witness->knows("remembered") && witness->knows("rows"));
+    QCOMPARE(witness->threads().size(), std::size_t{1});
+    QVERIFY(!witness->threads().contains(std::this_thread::get_id()));
+  }
+
+  /// take() and details() waited for the mutex that was held while datagrams were decoded.
+  void theScreenDoesNotWaitForDecoding() {
+    const LiveOptions options = freeOptions();
+    LiveWatch watch(options);
+    QTRY_COMPARE(bound(watch), std::size_t{4});
+    const TestSocket robot;
+    QVERIFY(robot.send(portOf(options, 1), message(1)));
+    QTRY_VERIFY(watch.take().frame && watch.take().frame->robots.size() == 1);
+    const auto obstacle = std::make_shared<Obstacle>();
+    watch.observe(obstacle);
+    QVERIFY(robot.send(portOf(options, 2), message(2)));
+    QVERIFY(obstacle->waitUntilHeld());
+    QElapsedTimer timer;
+    timer.start();
+    const auto frame = watch.take().frame;
+    const LiveDetails details = watch.details();
+    watch.setOptions(options);
+    watch.forget(frame->robots.at(0).uid);
+    const qint64 elapsed = timer.elapsed();
+    obstacle->free();
+    QVERIFY2(elapsed < 2000, QByteArray::number(elapsed));
+    QCOMPARE(frame->robots.size(), std::size_t{1});
+    QCOMPARE(details.team.robots.size(), std::size_t{1});
+    QTRY_VERIFY(watch.take().frame->robots.size() == 1 &&
+                watch.take().frame->robots[0].key.number == 2);
+  }
+
+  /// Asking for a frame wrote rows, events and snapshots.
+  void askingForAFrameWritesNothing() {
+    const LiveOptions options;
+    LivePipeline pipeline(options, {});
+    const auto at = [](int milliseconds) {
+      return telemetry::WallTime(std::chrono::milliseconds(milliseconds));
+    };
+    const auto count = std::make_shared<Count>();
+    pipeline.observe(count, at(0));
+    const auto send = [&](int port, const std::string& text, int milliseconds) {
+      pipeline.take(
+          {at(milliseconds), {{0x0a000001}, 4000}, static_cast<std::uint16_t>(port), false, text});
+    };
+    send(options.portBase + 1, message(1), 100);
+    (void)pipeline.advance(at(110));
+    send(options.portBase + 2, message(2), 120);
+    send(options.variablesPortBase + 1, "PB2 1 1 1000 DECISION_ACTION=8 OUT", 130);
+    const auto before = count->all();
+    // A snapshot, reports, timeouts and variables are due.
+    const MatchFrame first = pipeline.frame(at(30'000)), again = pipeline.frame(at(30'000));
+    QCOMPARE(count->all(), before);
+    QVERIFY(pipeline.drainNews().events.size() == std::size_t(before[1]));
+    QCOMPARE(first.serial, again.serial);
+    QCOMPARE(first.robots.size(), std::size_t{2});
+    QCOMPARE(again.robots.size(), std::size_t{2});
+    QVERIFY(first.robots[0].link->timedOut);
+    (void)pipeline.advance(at(30'000));
+    const auto after = count->all();
+    for (std::size_t i = 0; i < after.size(); ++i) QVERIFY(after[i] > before[i]);
+  }
+
   void theRefereeIsReceived() {
     const LiveOptions options = freeOptions();
     LiveWatch watch(options);
@@ -180,8 +416,8 @@ class TestLiveWatch : public QObject {
     LiveNews news;
     std::size_t events = 0;
     QTRY_VERIFY((news = watch.take(), events += news.events.size(), news.frame) &&
-                news.frame->referee);
-    QCOMPARE(news.frame->referee->version, 12);
+                news.frame->game);
+    QCOMPARE(news.frame->reception.version, 12);
     QVERIFY(referee.send(port, "no packet"));
     QTRY_COMPARE(watch.details().unknownReferee, std::uint64_t{1});
     QCOMPARE(watch.details().unknownRefereeSample, std::string("no packet"));
@@ -245,7 +481,9 @@ class TestLiveWatch : public QObject {
     QVERIFY(one.send(portOf(options, 1), message(1)));
     QVERIFY(two.send(portOf(options, 2), message(2)));
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{2});
-    watch.forget(RobotKey{0, 1, 0});
+    std::shared_ptr<const MatchFrame> frame;
+    QTRY_VERIFY((frame = watch.take().frame) && frame->robots.size() == 2);
+    watch.forget(frame->robot(RobotKey{0, 1, 0})->uid);
     QTRY_COMPARE(watch.details().team.robots.size(), std::size_t{1});
     QCOMPARE(watch.details().team.robots[0].key.number, 2);
     QVERIFY(one.send(portOf(options, 1), message(1)));
@@ -286,8 +524,8 @@ class TestLiveWatch : public QObject {
     QTRY_COMPARE(watch.details().referee.otherVersions, std::uint64_t{1});
     QVERIFY(referee.send(port, recordedPacket("v7compat116_from_v8GC_PLAYING_1-0")));
     QTRY_VERIFY(watch.take().frame);
-    QTRY_VERIFY(watch.take().frame->referee);
-    QCOMPARE(watch.take().frame->referee->version, 7);
+    QTRY_VERIFY(watch.take().frame->game);
+    QCOMPARE(watch.take().frame->reception.version, 7);
   }
 
   void clocksThatAreSetMoveNothing() {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include <robotlink/advisor/reference_processes.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/match/simulated_match.h>
 #include <simcore/world/published_frame.h>
@@ -113,7 +113,7 @@ class TestMapExtension : public QObject {
       QVERIFY2(wordOf(variable) >= 384, variable.name.c_str());
     }
     QCOMPARE(static_cast<int>(VariableCatalog::published().variables().size()), 205);
-    QCOMPARE(more, 127);
+    QCOMPARE(more, 75);
   }
 
   void variablesOfATeamAreNotOverwritten() {

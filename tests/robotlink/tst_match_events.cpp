@@ -25,7 +25,7 @@ namespace {
 
 std::vector<MatchEvent> taken(SimulatedMatch& match) {
   std::vector<MatchEvent> events;
-  match.takeEvents(events);
+  match.drainEvents(events);
   return events;
 }
 
@@ -41,11 +41,11 @@ MatchEvent full(Kind kind) {
   MatchEvent event;
   event.kind = kind;
   event.time = 12.25;
-  event.robot = red(7);
+  event.robot = uidOf(red(7));
   event.name = "R2";
   event.side = Side::Right;
   event.team = 5;
-  event.colour = "red";
+  event.colour = TeamColor::Red;
   event.value = -30;
   event.score = sim::Score{2, 3};
   event.process = "decision";
@@ -110,7 +110,7 @@ class TestMatchEvents : public QObject {
     while (!match.finished()) {
       match.tick();
       raw.insert(raw.end(), match.simulation().events().begin(), match.simulation().events().end());
-      match.takeEvents(all);
+      match.drainEvents(all);
     }
     // What the robot sees is no event of the simulation.
     std::erase_if(all, [](const MatchEvent& event) {
@@ -121,11 +121,8 @@ class TestMatchEvents : public QObject {
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const MatchEvent& event = all[i + 1];
       QCOMPARE(event.time, static_cast<double>(raw[i].tick) / 60.0);
-      QCOMPARE(event.robot.number != 0, raw[i].robot.value != 0);
-      if (raw[i].robot == RobotId{1}) {
-        QVERIFY(event.robot == blue(1));
-        QCOMPARE(event.name, std::string("B1"));
-      }
+      QVERIFY(event.robot == uidOf(raw[i].robot));
+      if (raw[i].robot == RobotId{1}) QCOMPARE(event.name, std::string("B1"));
     }
     QCOMPARE(all.back().kind, Kind::MatchOver);
     QCOMPARE(all.back().detail, std::string("duration"));
@@ -171,7 +168,7 @@ class TestMatchEvents : public QObject {
     const auto lost = play(120);
     QCOMPARE(lost.size(), std::size_t{1});
     QCOMPARE(sentenceOf(lost[0]), std::string("B1 lost the ball: not seen for 2 s"));
-    QVERIFY(lost[0].robot == blue(1) && lost[0].time >= 3.0 && lost[0].time < 3.5);
+    QVERIFY(lost[0].robot == uidOf(RobotId{1}) && lost[0].time >= 3.0 && lost[0].time < 3.5);
     std::vector<MatchEvent> seen;
     for (int tries = 0; tries < 20 && seen.empty(); ++tries) {
       QVERIFY(match.simulation().placeBall(ahead()));
@@ -199,7 +196,7 @@ class TestMatchEvents : public QObject {
                     {RobotId{2}, TeamColor::Orange, 1, true}};
     const MatchEvent goal = matchEvent({sim::EventKind::Goal, 120, {}, 1}, state);
     QVERIFY(goal.side == Side::Right);
-    QCOMPARE(goal.colour, std::string("orange"));
+    QCOMPARE(goal.colour, std::optional(TeamColor::Orange));
     QCOMPARE(sentenceOf(goal), std::string("goal for ORANGE, 0 : 1"));
     QCOMPARE(labelOf(goal), std::string("goal ORANGE"));
     QCOMPARE(logLineOf(goal).origin, std::string("simulation"));
@@ -218,8 +215,7 @@ class TestMatchEvents : public QObject {
     };
     using Kinds = std::vector<Kind>;
     const auto ready = [&] {
-      return simulation.call(
-          {.kind = sim::CallKind::State, .state = sim::PlayState::Ready, .cause = 7});
+      return simulation.call({.kind = sim::CallKind::State, .state = PlayState::Ready, .cause = 7});
     };
     const Moment before = momentOf(match);
     QVERIFY(ready());
@@ -237,7 +233,7 @@ class TestMatchEvents : public QObject {
     QCOMPARE(sentenceOf(reported[0]), std::string("noise changed"));
     QCOMPARE(reported[0].cause, std::uint32_t{8});
     QVERIFY(isMarked(reported[0]));
-    // Who looks at the events of the step finds all of them; here they were reported before.
+    // The events of a step include those that were reported before it.
     simulation.reportUndone(7);
     match.tick();
     QVERIFY(simulation.events().size() >= 5);
@@ -252,8 +248,7 @@ class TestMatchEvents : public QObject {
     scenario.settings.referee = refereeRuleSet("humanoid-2021").value();
     auto match = SimulatedMatch::create(scenario, {}).value();
     sim::Simulation& simulation = match.simulation();
-    for (const sim::PlayState state :
-         {sim::PlayState::Ready, sim::PlayState::Set, sim::PlayState::Playing}) {
+    for (const PlayState state : {PlayState::Ready, PlayState::Set, PlayState::Playing}) {
       QVERIFY(simulation.call({.kind = sim::CallKind::State, .state = state}));
     }
     QVERIFY(simulation.call({.kind = sim::CallKind::Goal, .team = 0, .value = 1, .cause = 5}));
@@ -285,7 +280,7 @@ class TestMatchEvents : public QObject {
       return QTest::qWaitFor(
           [&] {
             match.pace().lookAfterProcesses(Clock::now());
-            match.takeEvents(events);
+            match.drainEvents(events);
             return find(events, until) != nullptr;
           },
           20'000);
@@ -367,7 +362,7 @@ class TestMatchEvents : public QObject {
       QCOMPARE(std::string(info(events[i].kind).name), raw[i].kind);
       QCOMPARE(events[i].time, raw[i].time);
       QCOMPARE(events[i].name, raw[i].group);
-      QCOMPARE(events[i].robot.number != 0, !raw[i].group.empty());
+      QCOMPARE(events[i].robot != RobotUid{}, !raw[i].group.empty());
     }
   }
 

@@ -117,11 +117,9 @@ class TestMatchPackets : public QObject {
     QCOMPARE(received.size(), wanted.size());
     if (!humanoidSoccer(version)) return;
     // When play is stopped they say so at once, and then five times a second for a second.
-    QVERIFY(
-        match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready}));
-    QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Set}));
-    QVERIFY(
-        match.simulation().call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = PlayState::Ready}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = PlayState::Set}));
+    QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = PlayState::Playing}));
     play(match, 20.0);
     (void)receivedBy(socket);
     QVERIFY(match.simulation().call({.kind = sim::CallKind::Stop}));
@@ -133,6 +131,43 @@ class TestMatchPackets : public QObject {
              qPrintable(QString::number(received[version])));
     play(match, 5.0);
     QVERIFY(std::abs(receivedBy(socket)[version] - 10) <= 1);
+  }
+
+  // The number of the packet before was repeated while play was stopped (176 176 176 177).
+  void everyPacketHasTheNextNumber() {
+    const TestSocket socket(loopbackBroadcast);
+    SimulatedMatch match = sending(20, 158, socket.port());
+    for (const auto state : {PlayState::Ready, PlayState::Set, PlayState::Playing}) {
+      QVERIFY(match.simulation().call({.kind = sim::CallKind::State, .state = state}));
+    }
+    std::optional<int> last;
+    int packets = 0;
+    bool wrapped = false;
+    const auto look = [&] {
+      for (std::string text = socket.take(); !text.empty(); text = socket.take()) {
+        const auto packet =
+            std::get<telemetry::RefereeState>(telemetry::decodeReferee(text).value());
+        if (last) QCOMPARE(*packet.packetNumber, (*last + 1) % 256);
+        wrapped = wrapped || *packet.packetNumber == 255;
+        last = packet.packetNumber;
+        ++packets;
+      }
+    };
+    for (int stop = 0; stop < 20; ++stop) {
+      play(match, 5.2);
+      QVERIFY(match.simulation().call({.kind = sim::CallKind::Stop}));
+      play(match, 2.3);
+      QVERIFY(match.simulation().call({.kind = sim::CallKind::GoOn}));
+      look();
+    }
+    QVERIFY(packets > 300 && wrapped);
+    // Also after a jump back: whoever listens would take lower numbers for late packets.
+    const sim::WorldState before = match.simulation().state();
+    play(match, 3.0);
+    look();
+    QVERIFY(match.simulation().restore(before));
+    play(match, 3.0);
+    look();
   }
 
   void teamsOfAnyColourNumberAndShirt_data() {
@@ -164,9 +199,8 @@ class TestMatchPackets : public QObject {
     const auto received = [&] {
       const auto bytes = telemetry::encodeReferee(refereePacket(world, 1)).value();
       const auto packet = telemetry::decodeReferee(std::string_view(bytes)).value();
-      const auto order = RefereeOrders().take(std::get<telemetry::RefereeState>(packet), 12,
-                                              world.game->teams[1].slotOf(shirt));
-      return order ? order->code : -1;
+      const Game heard = telemetry::gameOf(std::get<telemetry::RefereeState>(packet));
+      return RefereeOrders().take(heard, 12, world.game->teams[1].slotOf(shirt)).value_or(-1);
     };
     const auto call = [&](const sim::RefereeCall& one) {
       QVERIFY(match.simulation().call(one));
@@ -174,12 +208,12 @@ class TestMatchPackets : public QObject {
       QCOMPARE(received(), word());
     };
     QCOMPARE(world.game->teams[1].number, 12);
-    call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});
+    call({.kind = sim::CallKind::State, .state = PlayState::Ready});
     QCOMPARE(word(), refereeReady);
-    call({.kind = sim::CallKind::Penalise, .robot = ours, .penalty = sim::PenaltyKind::Pushing});
+    call({.kind = sim::CallKind::Penalise, .robot = ours, .penalty = PenaltyKind::Pushing});
     QCOMPARE(word(), refereeStop);
     const sim::RobotIdentity& robot = world.robots[*match.simulation().indexOf(ours)];
-    QCOMPARE(world.game->player(robot.team, robot.number)->penalty, sim::PenaltyKind::Pushing);
+    QCOMPARE(world.game->player(robot.team, robot.number)->penalty, PenaltyKind::Pushing);
     call({.kind = sim::CallKind::Pardon, .robot = ours});
     QCOMPARE(word(), refereeReady);
   }
@@ -189,7 +223,7 @@ class TestMatchPackets : public QObject {
     scenario.robots[0].identity.team = TeamColor::Black;
     const auto refused = SimulatedMatch::create(scenario, {});
     QVERIFY(!refused);
-    QVERIFY2(refused.error().text().find("two teams, but here are blue, red, black") !=
+    QVERIFY2(refused.error().text().find("is between blue and red. Choose one of these teams") !=
                  std::string::npos,
              refused.error().text().c_str());
   }
@@ -205,8 +239,8 @@ class TestMatchPackets : public QObject {
     // It has rules of its own; what it receives decides.
     auto obeying = SimulatedMatch::create(scenarioFor(12, 688), options).value();
     SimulatedMatch match = sending(version, size, port);
-    const sim::GameState& wanted = *match.simulation().state().game;
-    const sim::GameState& game = *obeying.simulation().state().game;
+    const Game& wanted = *match.simulation().state().game;
+    const Game& game = *obeying.simulation().state().game;
     const auto agrees = [&](auto&& same) {
       play(match, 0.5);
       obeying.tick();
@@ -216,37 +250,172 @@ class TestMatchPackets : public QObject {
       const auto done = match.simulation().call(one);
       if (!done) qFatal("%s", done.error().text().c_str());
     };
-    const auto becomes = [&](sim::PlayState state) {
+    const auto becomes = [&](PlayState state) {
       call({.kind = sim::CallKind::State, .state = state});
       return QTest::qWaitFor(
           [&] { return agrees([&] { return game.state == state && game.half == wanted.half; }); },
           30'000);
     };
     call({.kind = sim::CallKind::KickOff, .team = 1});
-    QVERIFY(becomes(sim::PlayState::Ready));
+    QVERIFY(becomes(PlayState::Ready));
     QCOMPARE(game.kickOff, 1);
-    QVERIFY(becomes(sim::PlayState::Set));
-    QVERIFY(becomes(sim::PlayState::Playing));
-    const double rate = match.simulation().state().settings.tickRate;
-    QVERIFY(std::abs(sim::secondsOf(game.clock, rate) - sim::secondsOf(wanted.clock, rate)) <= 2);
+    QVERIFY(becomes(PlayState::Set));
+    QVERIFY(becomes(PlayState::Playing));
+    QVERIFY(std::abs(game.secondsLeft() - wanted.secondsLeft()) <= 2);
 
-    call({.kind = sim::CallKind::Penalise,
-          .robot = RobotId{2},
-          .penalty = sim::PenaltyKind::Incapable});
+    call({.kind = sim::CallKind::Penalise, .robot = RobotId{2}, .penalty = PenaltyKind::Incapable});
     QTRY_VERIFY(agrees([&] {
-      return game.teams[0].players[1].penalty == sim::PenaltyKind::Incapable &&
+      return game.teams[0].players[1].penalty == PenaltyKind::Incapable &&
              obeying.blackboard(RobotId{2})->read(obeying.variables().comReferee) == refereeStop;
     }));
-    QCOMPARE(game.teams[0].players[0].penalty, sim::PenaltyKind::None);
+    QCOMPARE(game.teams[0].players[0].penalty, PenaltyKind::None);
     call({.kind = sim::CallKind::Pardon, .robot = RobotId{2}});
-    QTRY_VERIFY(agrees([&] { return game.teams[0].players[1].penalty == sim::PenaltyKind::None; }));
+    QTRY_VERIFY(agrees([&] { return game.teams[0].players[1].penalty == PenaltyKind::None; }));
 
     call({.kind = sim::CallKind::Goal, .team = 1, .value = 1});
     QTRY_VERIFY(agrees([&] { return game.teams[1].score == 1 && game.teams[0].score == 0; }));
-    QVERIFY(becomes(sim::PlayState::Finished));
+    QVERIFY(becomes(PlayState::Finished));
     call({.kind = sim::CallKind::NextHalf});
     QTRY_VERIFY(agrees([&] { return game.half == 2 && game.swapped; }));
     QCOMPARE(game.teams[1].score, 1);
+  }
+
+  // States, halves, goals and penalties of the packets are events of the match, as those of its own
+  // referee are.
+  void whatIsObeyedIsReported_data() { everyVersion(); }
+  void whatIsObeyedIsReported() {
+    QFETCH(int, version);
+    QFETCH(int, size);
+    const TestSocket controller;
+    const int port = TestSocket().port();
+    MatchOptions options;
+    options.process.particles = 100;
+    options.obeyReferee = port;
+    Scenario scenario = scenarioFor(12, 688);
+    scenario.settings.teams = {{TeamColor::Blue, 1, "RoboFEI"}, {TeamColor::Red, 2, {}}};
+    auto match = SimulatedMatch::create(scenario, options).value();
+    // A game of this version, whose referee is this test.
+    auto world = SimulatedMatch::create(scenarioFor(version, size), {}).value();
+    sim::Simulation& game = world.simulation();
+    std::vector<MatchEvent> events;
+    match.drainEvents(events);
+    int number = 0;
+    const auto tellAndFind = [&](MatchEventKind kind, const std::string& sentence) {
+      telemetry::RefereeState packet = refereePacket(game.state(), number++);
+      const auto bytes = telemetry::encodeReferee(packet).value();
+      events.clear();
+      const auto isReported = [&] {
+        match.tick();
+        match.drainEvents(events);
+        return std::ranges::any_of(events, [&](const MatchEvent& event) {
+          return event.kind == kind && sentenceOf(event).starts_with(sentence);
+        });
+      };
+      controller.send(static_cast<std::uint16_t>(port), bytes);
+      if (!QTest::qWaitFor(isReported, 20'000)) qWarning("not reported: %s", sentence.c_str());
+      return isReported();
+    };
+    const auto call = [&](const sim::RefereeCall& one) {
+      if (const auto done = game.call(one); !done) qFatal("%s", done.error().text().c_str());
+    };
+    const auto changesTo = [&](PlayState state) {
+      call({.kind = sim::CallKind::State, .state = state});
+      return tellAndFind(MatchEventKind::GameState, std::string(labelOf(state)));
+    };
+    using Kind = MatchEventKind;
+    QVERIFY(changesTo(PlayState::Ready));
+    QVERIFY(changesTo(PlayState::Set));
+    game.editState().settings.referee->playingHidden = 0;
+    QVERIFY(changesTo(PlayState::Playing));
+    const RobotId robot{3};
+    call({.kind = sim::CallKind::Penalise, .robot = robot, .penalty = PenaltyKind::Pushing});
+    QVERIFY(tellAndFind(Kind::Penalised, "B3 penalised: pushing"));
+    call({.kind = sim::CallKind::Pardon, .robot = robot});
+    QVERIFY(tellAndFind(Kind::PenaltyOver, "B3"));
+    if (humanoidSoccer(version)) {
+      call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = SetPlay::CornerKick});
+      QVERIFY(tellAndFind(Kind::SetPlay, "corner kick for red"));
+      call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = SetPlay::None});
+      QVERIFY(tellAndFind(Kind::SetPlay, "normal play"));
+    }
+    call({.kind = sim::CallKind::Goal, .team = 0, .value = 1});
+    QVERIFY(tellAndFind(Kind::Goal, "goal for RoboFEI, 1 : 0"));
+    const auto goal = std::ranges::find(events, Kind::Goal, &MatchEvent::kind);
+    QCOMPARE(goal->team, 1);
+    QCOMPARE(logLineOf(*goal).origin, std::string("referee"));
+    QCOMPARE(std::ranges::count(events, Kind::Goal, &MatchEvent::kind), 1);
+    call({.kind = sim::CallKind::Goal, .team = 0, .value = -1});
+    QVERIFY(tellAndFind(Kind::ScoreCorrected, "score corrected for RoboFEI, 0 : 0"));
+    QVERIFY(changesTo(PlayState::Finished));
+    call({.kind = sim::CallKind::NextHalf});
+    QVERIFY(tellAndFind(Kind::Half, "second half"));
+    call({.kind = sim::CallKind::Timeout, .team = 0});
+    QVERIFY(tellAndFind(Kind::GamePhase, "timeout"));
+  }
+
+  // The referee alone says what a goal is: a ball in the goal of an obeyed match is out.
+  void aBallInTheGoalIsNoGoalBeforeTheRefereeSaysSo() {
+    MatchOptions options;
+    options.obeyReferee = TestSocket().port();
+    Scenario scenario = scenarioFor(20, 158);
+    auto match = SimulatedMatch::create(scenario, options).value();
+    telemetry::RefereeState packet = refereePacket(match.simulation().state(), 1);
+    packet.state = static_cast<int>(PlayState::Playing);
+    packet.kickOffTeam.reset();
+    packet.kickOffRaw = 255;
+    const TestSocket controller;
+    controller.send(static_cast<std::uint16_t>(*options.obeyReferee),
+                    telemetry::encodeReferee(packet).value());
+    const auto plays = [&] {
+      match.tick();
+      return match.simulation().state().game->state == PlayState::Playing;
+    };
+    QTRY_VERIFY(plays());
+    const double line = scenario.settings.field.halfLength();
+    QVERIFY(match.simulation().placeBall({line - 0.2, 0.0}, {2.0, 0.0}));
+    std::vector<MatchEvent> events;
+    match.drainEvents(events);
+    events.clear();
+    play(match, 1.0);
+    match.drainEvents(events);
+    QVERIFY(std::ranges::count(events, MatchEventKind::BallOut, &MatchEvent::kind) >= 1);
+    QCOMPARE(std::ranges::count(events, MatchEventKind::Goal, &MatchEvent::kind), 0);
+    QCOMPARE(match.simulation().state().score, sim::Score{});
+  }
+
+  // By cable and by Wi-Fi: 10, 12, 11, 13. In 11 the goal is not counted yet.
+  void aLatePacketChangesNothing() {
+    MatchOptions options;
+    options.obeyReferee = TestSocket().port();
+    auto match = SimulatedMatch::create(scenarioFor(20, 158), options).value();
+    telemetry::RefereeState packet = refereePacket(match.simulation().state(), 0);
+    const TestSocket controller, restarted;
+    const auto tell = [&](const TestSocket& from, int number, PlayState state, int score) {
+      packet.packetNumber = number;
+      packet.state = static_cast<int>(state);
+      packet.teams[0].score = score;
+      from.send(static_cast<std::uint16_t>(*options.obeyReferee),
+                telemetry::encodeReferee(packet).value());
+    };
+    std::vector<MatchEvent> events;
+    const auto shows = [&](PlayState state, int score) {
+      match.tick();
+      match.drainEvents(events);
+      const Game& game = *match.simulation().state().game;
+      return game.state == state && game.teams[0].score == score;
+    };
+    tell(controller, 10, PlayState::Playing, 0);
+    QTRY_VERIFY(shows(PlayState::Playing, 0));
+    tell(controller, 12, PlayState::Ready, 1);
+    QTRY_VERIFY(shows(PlayState::Ready, 1));
+    tell(controller, 11, PlayState::Playing, 0);
+    tell(controller, 13, PlayState::Set, 1);
+    QTRY_VERIFY(shows(PlayState::Set, 1));
+    QCOMPARE(std::ranges::count(events, MatchEventKind::Goal, &MatchEvent::kind), 1);
+    QCOMPARE(std::ranges::count(events, MatchEventKind::ScoreCorrected, &MatchEvent::kind), 0);
+    // A program that was started again counts from 0.
+    tell(restarted, 0, PlayState::Initial, 0);
+    QTRY_VERIFY(shows(PlayState::Initial, 0));
   }
 
   // At ten times real time five seconds of the match go by from one packet to the next.
@@ -264,16 +433,16 @@ class TestMatchPackets : public QObject {
     const auto penalty = [&](const SimulatedMatch& match) {
       return match.simulation().state().game->teams[0].players[1].penalty;
     };
-    const auto receives = [&](sim::PenaltyKind kind) {
+    const auto receives = [&](PenaltyKind kind) {
       play(controller, 0.5);
       obeying.tick();
       return penalty(obeying) == kind;
     };
-    call({.kind = sim::CallKind::State, .state = sim::PlayState::Ready});
-    call({.kind = sim::CallKind::State, .state = sim::PlayState::Set});
-    call({.kind = sim::CallKind::State, .state = sim::PlayState::Playing});
-    call({.kind = sim::CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Pushing});
-    QTRY_VERIFY(receives(sim::PenaltyKind::Pushing));
+    call({.kind = sim::CallKind::State, .state = PlayState::Ready});
+    call({.kind = sim::CallKind::State, .state = PlayState::Set});
+    call({.kind = sim::CallKind::State, .state = PlayState::Playing});
+    call({.kind = sim::CallKind::Penalise, .robot = robot, .penalty = PenaltyKind::Pushing});
+    QTRY_VERIFY(receives(PenaltyKind::Pushing));
     play(obeying, 5.0);
     const Pose beside = *obeying.simulation().robotPose(robot);
     QVERIFY(std::abs(beside.position.y) > obeying.simulation().state().settings.field.halfWidth());
@@ -283,12 +452,12 @@ class TestMatchPackets : public QObject {
       QVERIFY(obeying.simulation().placeBall({0.0, packet % 2 == 0 ? 1.0 : -1.0}));
       for (int tick = 0; tick < 5 * tickRate; ++tick) {
         obeying.tick();
-        QCOMPARE(penalty(obeying), sim::PenaltyKind::Pushing);
+        QCOMPARE(penalty(obeying), PenaltyKind::Pushing);
       }
       QVERIFY(distance(obeying.simulation().robotPose(robot)->position, beside.position) < 0.05);
     }
     call({.kind = sim::CallKind::Pardon, .robot = robot});
-    QTRY_VERIFY(receives(sim::PenaltyKind::None));
+    QTRY_VERIFY(receives(PenaltyKind::None));
   }
 
   // Of robots that know the extension of the map: whose set play it is, score and time.
@@ -306,7 +475,7 @@ class TestMatchPackets : public QObject {
       QVERIFY(match.simulation().call(one));
       play(match, 0.6);
     };
-    for (const auto state : {sim::PlayState::Ready, sim::PlayState::Set, sim::PlayState::Playing}) {
+    for (const auto state : {PlayState::Ready, PlayState::Set, PlayState::Playing}) {
       call({.kind = sim::CallKind::State, .state = state});
     }
     QCOMPARE(words(1), std::pair(0, 0));
@@ -318,15 +487,15 @@ class TestMatchPackets : public QObject {
     call({.kind = sim::CallKind::Goal, .team = 1, .value = 1});
     QCOMPARE(game("COM_GOALS_OWN"), 0);
     QCOMPARE(game("COM_GOALS_THEIRS"), 1);
-    for (const auto state : {sim::PlayState::Set, sim::PlayState::Playing}) {
+    for (const auto state : {PlayState::Set, PlayState::Playing}) {
       call({.kind = sim::CallKind::State, .state = state});
     }
     QVERIFY(game("COM_SECONDS_LEFT") < left);
-    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::GoalKick});
+    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = SetPlay::GoalKick});
     QCOMPARE(words(1), std::pair(5, 1));
-    call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = sim::SetPlay::ThrowIn});
+    call({.kind = sim::CallKind::SetPlay, .team = 1, .setPlay = SetPlay::ThrowIn});
     QCOMPARE(words(1), std::pair(4, 0));
-    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::None});
+    call({.kind = sim::CallKind::SetPlay, .team = 0, .setPlay = SetPlay::None});
     QCOMPARE(words(1), std::pair(0, 0));
   }
 
@@ -339,7 +508,7 @@ class TestMatchPackets : public QObject {
       packet.firstHalf = half == 1 ? 1 : 0;
       packet.state = state;
       packet.secState = secState;
-      adoptPacket(packet, world);
+      adoptGame(telemetry::gameOf(packet), true, world);
       return world.game->swapped;
     };
     QVERIFY(!receives(1, 3, 0));
@@ -369,7 +538,7 @@ class TestMatchPackets : public QObject {
     QFETCH(int, version);
     QFETCH(int, size);
     QFETCH(int, bytes);
-    const TestSocket screen;
+    const TestSocket screen(INADDR_ANY);  // replies go to the address of whoever sends
     const int port = TestSocket().port();
     MatchOptions options;
     options.process.particles = 100;
@@ -379,7 +548,7 @@ class TestMatchPackets : public QObject {
     const auto isObeyed = [&](SimulatedMatch& match) {
       play(controller, 0.5);
       match.tick();
-      return match.simulation().state().game->obeyed;
+      return match.simulation().state().refereeMemory.obeyed;
     };
     QTRY_VERIFY(isObeyed(silent));
     QVERIFY(!screen.received());
@@ -405,6 +574,31 @@ class TestMatchPackets : public QObject {
     }
     QCOMPARE(robots.size(), std::size_t{8});
     QVERIFY(robots.contains({1, 1}) && robots.contains({2, 4}));
+  }
+
+  // While play is stopped a referee of 2026 sends five packets a second, and wants two replies.
+  void itIsAnsweredAtMostTwiceASecond() {
+    const TestSocket screen(INADDR_ANY);  // replies go to the address of whoever sends
+    MatchOptions options;
+    options.obeyReferee = TestSocket().port();
+    options.answerReferee = screen.port();
+    auto answering = SimulatedMatch::create(scenarioFor(20, 158), options).value();
+    SimulatedMatch controller = sending(20, 158, *options.obeyReferee);
+    QElapsedTimer timer;
+    timer.start();
+    int replies = 0;  // of one robot
+    const auto replied = [&](int wanted) {
+      play(controller, 0.5);  // a packet each time
+      answering.tick();
+      for (std::string text = screen.take(); !text.empty(); text = screen.take()) {
+        const auto reply = std::get<telemetry::RobotReply>(
+            telemetry::decodeReferee(std::string_view(text)).value());
+        replies += reply.team == 1 && reply.player == 1 ? 1 : 0;
+      }
+      return replies >= wanted;
+    };
+    QTRY_VERIFY(replied(4));
+    QVERIFY2(timer.elapsed() >= 1500, qPrintable(QString::number(timer.elapsed())));
   }
 };
 

@@ -172,21 +172,21 @@ class TestMatchRunner : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runner->latest()->finished, 30'000);
     QCOMPARE(runner->latest()->snapshot.tick, std::uint64_t{120});
     QCOMPARE(runner->latest()->finishedBy, std::string("duration"));
-    const auto events = runner->takeEvents();
+    const auto events = runner->drainEvents();
     QVERIFY(!events.empty());
     QCOMPARE(events.front().kind, MatchEventKind::GameState);
     QCOMPARE(events.front().detail, std::string("PLAYING"));
     QCOMPARE(events.back().kind, MatchEventKind::MatchOver);
     QCOMPARE(events.back().time, 2.0);
     QCOMPARE(sentenceOf(events.back()), std::string("the match is over (duration)"));
-    QVERIFY(runner->takeEvents().empty());
+    QVERIFY(runner->drainEvents().empty());
   }
 
   void eventsArrive() {
     auto runner = start(builtIn("one-robot"), true);
     runner->runTo(60 * 60);
     QVERIFY(runner->waitUntilStill(20s));
-    const auto events = runner->takeEvents();
+    const auto events = runner->drainEvents();
     QVERIFY(std::any_of(events.begin(), events.end(),
                         [](const auto& event) { return event.kind == MatchEventKind::Kick; }));
   }
@@ -218,7 +218,7 @@ class TestMatchRunner : public QObject {
     QCOMPARE(late->ticks.front(), std::uint64_t{600});
     QCOMPARE(late->ticks.back(), std::uint64_t{1200});
     QCOMPARE(late->timed, std::size_t{600});
-    QCOMPARE(first->happenings, runner->takeEvents().size());
+    QCOMPARE(first->happenings, runner->drainEvents().size());
     QVERIFY(first->happenings > 0);
   }
 
@@ -279,7 +279,7 @@ class TestMatchRunner : public QObject {
             return Changed::Yes;
           });
           runner->setPaused(i % 2 == 0);
-          (void)runner->takeEvents();
+          (void)runner->drainEvents();
         }
       });
     }
@@ -340,7 +340,7 @@ class TestMatchRunner : public QObject {
     std::vector<std::pair<double, double>> times;  // of the match, of the program
     double settled = 0.0;                          // s of the match
     const auto isLongEnough = [&] {
-      for (const LogLine& line : (*runner)->takeLog()) {
+      for (const LogLine& line : (*runner)->drainLog()) {
         times.emplace_back(line.time, std::stod(line.text));
       }
       // Once it is known what is reached.

@@ -20,6 +20,8 @@
 #include <simcore/world/action_codes.h>
 #include <telemetry/series/series_store.h>
 
+#include "../support/group_facts.h"
+
 namespace tst_match_sampler {
 
 using namespace pitchboard;
@@ -104,9 +106,20 @@ class TestMatchSampler : public QObject {
     for (telemetry::ColumnInfo& column : old.columns) column.lost.clear();
     VariableMeanings::published().describeLost(old);
     QVERIFY(old == view->info());
+    // What a robot sent later than its first variables; a message has its own rule.
+    telemetry::GroupInfo sent{"B2", std::vector<telemetry::ColumnInfo>(2),
+                              telemetry::facts({{"sent", "1.2.3.4"}})};
+    sent.columns[0].name = "VISION_LOST";
+    sent.columns[1].name = "VISION_BALL_DIST";
+    VariableMeanings::published().describeLost(sent);
+    QCOMPARE(sent.columns[1].lost, neverSeen);
+    sent.columns[1].lost.clear();
+    sent.robot = telemetry::facts({{"sender", "1.2.3.4"}});
+    VariableMeanings::published().describeLost(sent);
+    QVERIFY(sent.columns[1].lost.empty());
   }
 
-  /// What advisors say is sampled where a team thinks ahead, and nowhere else.
+  /// What advisors have learned is sampled where a team has one, and nowhere else.
   void advisorsAreSampled() {
     Scenario scenario = loadScenario("match-3v3").value();
     scenario.advisors[TeamColor::Blue];
@@ -121,13 +134,12 @@ class TestMatchSampler : public QObject {
       const auto id = store->find("B1", name);
       return id ? store->view(id->group)->latest(id->column)->value : -1.0;
     };
-    const IntVar stamp = *VariableCatalog::extended().intVar("ADVISOR_STAMP");
-    QCOMPARE(latest("ADVISOR_STAMP"), match.blackboard(RobotId{1})->read(stamp));
-    QVERIFY(latest("ADVISOR_STAMP") > 0.0);
-    for (const char* name : {"ADVISOR_GAIN", "ADVISOR_HEAT01", "ADVISOR_CANDIDATE1"}) {
+    const IntVar evidence = *VariableCatalog::extended().intVar("ADVISOR_EVIDENCE1");
+    QCOMPARE(latest("ADVISOR_EVIDENCE1"), match.blackboard(RobotId{1})->read(evidence));
+    for (const char* name : {"ADVISOR_AIM", "ADVISOR_ASIDE"}) {
       QVERIFY2(store->find("B1", name), name);
     }
-    QVERIFY(!Rig().store->find("B1", "ADVISOR_STAMP"));
+    QVERIFY(!Rig().store->find("B1", "ADVISOR_AIM"));
   }
 
   void oneSampleServesAllReceivers() {
@@ -193,12 +205,12 @@ class TestMatchSampler : public QObject {
       QCOMPARE(rig.latest(name.c_str(), "TRUE_YAW"), degreesFromRadians(robot.pose.yaw));
       QCOMPARE(rig.latest(name.c_str(), "DISTANCE_WALKED"), robot.statistics.distanceWalked);
       const auto view = rig.store->view(*rig.store->findGroup(name));
-      QCOMPARE(view->info().attributes.at("robot"), std::to_string(robot.identity.id.value));
-      QCOMPARE(view->info().attributes.at("team"), std::string(info(robot.identity.team).name));
-      QCOMPARE(view->info().attributes.at("number"), std::to_string(robot.identity.number));
-      QCOMPARE(std::stod(view->info().attributes.at("radius")), robot.radius);
-      QCOMPARE(std::stod(view->info().attributes.at("vision_range")), robot.visionRange);
-      QCOMPARE(view->info().attributes.at("imu180"),
+      QCOMPARE(attributesOf(view->info()).at("robot"), std::to_string(robot.identity.id.value));
+      QCOMPARE(attributesOf(view->info()).at("team"), std::string(info(robot.identity.team).name));
+      QCOMPARE(attributesOf(view->info()).at("number"), std::to_string(robot.identity.number));
+      QCOMPARE(std::stod(attributesOf(view->info()).at("radius")), robot.radius);
+      QCOMPARE(std::stod(attributesOf(view->info()).at("vision_range")), robot.visionRange);
+      QCOMPARE(attributesOf(view->info()).at("imu180"),
                std::string(robot.identity.imuStartsAt180 ? "1" : "0"));
       // Every word of the blackboard.
       double time = 0.0;
@@ -221,6 +233,20 @@ class TestMatchSampler : public QObject {
         QCOMPARE(view->info().columns.at(i).name, variable.name);
         ++i;
       }
+      // Those of the extension that are in use: what flows into the processes.
+      const VariableCatalog extended = VariableCatalog::published().withExtension();
+      QVERIFY(view->info().columns.size() > i);
+      bool hasTarget = false;
+      for (; i < words.size() && extended.find(view->info().columns[i].name) != nullptr; ++i) {
+        const Variable& variable = *extended.find(view->info().columns[i].name);
+        const std::uint32_t wanted =
+            variable.type == VariableType::Int
+                ? std::bit_cast<std::uint32_t>(board.read(IntVar{variable.index}))
+                : std::bit_cast<std::uint32_t>(board.read(FloatVar{variable.index}));
+        QVERIFY2(words.at(i) == wanted, variable.name.c_str());
+        hasTarget = hasTarget || variable.name == "DECISION_TARGET_X";
+      }
+      QVERIFY(hasTarget);
       QCOMPARE(words.size(), i);
     }
   }

@@ -4,9 +4,9 @@
 #include <QtTest>
 
 #include <random>
+#include <set>
 
 #include <robotlink/frame/build_robot.h>
-#include <robotlink/frame/referee_view.h>
 #include <robotlink/match/match_runner.h>
 #include <robotlink/match/referee_packet.h>
 #include <robotlink/session/match_recorder.h>
@@ -16,6 +16,7 @@
 #include <simcore/rules/game_start.h>
 
 #include "../support/frame_settings.h"
+#include "../support/group_facts.h"
 
 namespace tst_moments {
 
@@ -121,6 +122,16 @@ void compareFrame(const MatchFrame& frame, const Witness::Seen& seen) {
   }
 }
 
+void compareBoards(const Moment& moment, const Witness::Seen& seen) {
+  QCOMPARE(moment.robots.size(), seen.snapshot.robots.size());
+  for (const MomentRobot& robot : moment.robots) {
+    QCOMPARE(robot.words.size(), VariableCatalog::published().variables().size());
+    for (const BoardWord& word : robot.words) {
+      QCOMPARE(word.bits, seen.boards.at(robot.id.value)[static_cast<std::size_t>(word.index)]);
+    }
+  }
+}
+
 }  // namespace
 
 class TestMoments : public QObject {
@@ -192,17 +203,100 @@ class TestMoments : public QObject {
       QVERIFY2(fromMemory, fromMemory ? "" : fromMemory.error().text().c_str());
       QVERIFY(sim::stateHash(fromMemory->state) == seen.hash);
       for (const Moment& moment : {*fromFile, *fromMemory}) {
-        QCOMPARE(moment.robots.size(), seen.snapshot.robots.size());
-        for (const MomentRobot& robot : moment.robots) {
-          QCOMPARE(robot.words.size(), VariableCatalog::published().variables().size());
-          for (const BoardWord& word : robot.words) {
-            QCOMPARE(word.bits,
-                     seen.boards.at(robot.id.value)[static_cast<std::size_t>(word.index)]);
-          }
-        }
+        compareBoards(moment, seen);
       }
     }
     QVERIFY(!momentFromSession(session, -10, VariableCatalog::published()));
+  }
+
+  void anAdvisorOfARunningMatchKeepsThePast() {
+    const Scenario scenario = scenarioOf();
+    const std::string path = m_folder.filePath("advised.mcap").toStdString();
+    telemetry::SeriesStore store;
+    const auto sampler = std::make_shared<MatchSampler>(
+        std::shared_ptr<telemetry::RowSink>(std::shared_ptr<void>(), &store));
+    const auto archive = std::make_shared<StateArchive>();
+    const auto witness = std::make_shared<Witness>();
+    const auto recorder =
+        MatchRecorder::create(path, scenario, VariableCatalog::published(), sampler, recording)
+            .value();
+    auto runner = MatchRunner::start(scenario, {}, true, VariableCatalog::published(),
+                                     {archive, sampler, recorder, witness})
+                      .value();
+    const auto playTo = [&](std::uint64_t tick, std::optional<AdvisorOptions> advisor) {
+      runner->runTo(tick);
+      if (!runner->waitUntilStill(60s)) qFatal("still playing");
+      runner->execute([advisor](SimulatedMatch& m) {
+        if (!m.robots().setAdvisor(TeamColor::Blue, advisor)) qFatal("no advisor");
+        return Changed::Yes;
+      });
+    };
+    const AdvisorOptions learns;
+    playTo(120, learns);
+    playTo(240, {});
+    playTo(300, learns);
+    playTo(360, {});
+    runner.reset();
+    QVERIFY(recorder->finish());
+
+    // In memory: each robot is one group, with everything it had and has.
+    const auto session = telemetry::SessionReader::open(path).value();
+    QCOMPARE(store.groups(), scenario.robots.size() + 1);
+    QCOMPARE(session.groups().size(), store.groups());
+    for (telemetry::GroupId g = 0; g < store.groups(); ++g) {
+      const auto view = store.view(g);
+      QVERIFY(view->range()->begin == 0.0 && view->range()->end == 6.0);
+      std::set<std::string> names;
+      for (const auto& column : session.groups()[g].info.columns) names.insert(column.name);
+      QCOMPARE(names.size(), session.groups()[g].info.columns.size());
+      QCOMPARE(names.size(), view->info().columns.size());
+    }
+    const auto advice = store.find("B1", "ADVISOR_AIM");
+    const auto truth = store.find("B1", "TRUE_X");
+    QVERIFY(advice && truth);
+    RecordedFrames fromRows, fromFile;
+    for (const std::uint64_t tick : {60U, 119U, 180U, 239U, 270U, 330U}) {
+      const auto& seen = witness->seen.at(tick);
+      const double seconds = static_cast<double>(tick) / 60;
+      const bool isAdvised = (tick > 120 && tick < 240) || tick > 300;
+      QCOMPARE(std::isnan(store.view(advice->group)->at(advice->column, seconds)->value),
+               !isAdvised);
+      QVERIFY(std::isfinite(store.view(truth->group)->at(truth->column, seconds)->value));
+      for (const MatchFrame& frame :
+           {fromRows.frameAt(store, seconds), fromFile.frameAt(session, seconds)}) {
+        compareFrame(frame, seen);
+        const RobotFrame* robot = frame.robot(scenario.robots[0].identity.id);
+        QVERIFY(robot->lamps[1].state == telemetry::HeartbeatState::Working);
+      }
+      const auto inMemory =
+          momentFromMemory(*archive, store, tick, VariableCatalog::published()).value();
+      const auto inFile = momentFromSession(session, seconds, VariableCatalog::published()).value();
+      for (const Moment& moment : {inMemory, inFile}) {
+        compareBoards(moment, seen);
+        auto match = SimulatedMatch::create(scenario, {}).value();
+        QVERIFY(match.restore(moment));
+        QCOMPARE(match.simulation().hash(), seen.hash);
+        // What the robots believe is what they believed.
+        for (const auto& robot : scenario.robots) {
+          const auto& board = seen.boards.at(robot.identity.id.value);
+          const IntVar x = match.variables().localizationX;
+          QCOMPARE(static_cast<std::uint32_t>(match.blackboard(robot.identity.id)->read(x)),
+                   board[static_cast<std::size_t>(x.index)]);
+        }
+      }
+    }
+
+    // What is saved of the past has each column once, too.
+    RecentPast past;
+    past.rows = &store;
+    past.archive = archive.get();
+    past.scenario = scenarioToJson(scenario);
+    const std::string recent = m_folder.filePath("advised-recent.mcap").toStdString();
+    QVERIFY(saveRecent(recent, 100.0, past, sessionInfo(scenario, recording)));
+    const auto saved = telemetry::SessionReader::open(recent).value();
+    QCOMPARE(saved.groups().size(), store.groups());
+    const auto moment = momentFromSession(saved, 1.0, VariableCatalog::published()).value();
+    compareBoards(moment, witness->seen.at(60));
   }
 
   void aMatchGoesOnFromAMoment() {
@@ -379,19 +473,22 @@ class TestMoments : public QObject {
     scenario.settings.referee->packetSize = size;
     scenario.settings.teams = {{TeamColor::Blue, 12, "RoboFEI"}, {TeamColor::Red, 5, ""}};
     sim::GameStart& game = scenario.game.emplace();
-    game.state = sim::PlayState::Playing;
+    game.state = PlayState::Playing;
     game.half = 2;
     game.clock = 451.5;
     game.left = TeamColor::Red;
     game.teams[TeamColor::Blue].score = 3;
-    game.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Incapable, .left = 21.0};
+    game.robots[RobotId{2}] = {.penalty = PenaltyKind::Incapable, .left = 21.0};
     const auto reported = SimulatedMatch::create(scenario, {}).value();
     // Seen live.
     MatchFrame frame;
     frame.origin = FrameOrigin::Live;
     frame.truthKnown = frame.ballKnown = false;
     frame.teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}, {5, "", TeamColor::Red, false}};
-    frame.referee = viewOf(refereePacket(reported.simulation().state(), 1, true));
+    const telemetry::RefereeState packet = refereePacket(reported.simulation().state(), 1, true);
+    frame.game = telemetry::gameOf(packet);
+    frame.reception.version = packet.version;
+    frame.reception.size = packet.size;
     for (const sim::RobotSnapshot& one : reported.simulation().snapshot().robots) {
       RobotFrame& robot = frame.robots.emplace_back();
       static_cast<sim::RobotSnapshot&>(robot) = one;
@@ -404,17 +501,17 @@ class TestMoments : public QObject {
     QCOMPARE(QString::fromStdString(made.notes.empty() ? "" : made.notes.back()),
              QString("The game continues from the referee's packet: PLAYING with 452 s left."));
     const sim::WorldState& world = match->simulation().state();
-    QCOMPARE(world.game->state, sim::PlayState::Playing);
+    QCOMPARE(world.game->state, PlayState::Playing);
     QCOMPARE(world.game->half, 2);
-    QCOMPARE(sim::secondsOf(world.game->clock, 60.0), 452);
+    QCOMPARE(world.game->secondsLeft(), 452);
     QCOMPARE(world.score, (sim::Score{0, 3}));
     QCOMPARE(world.game->teams[0].number, 12);
     QVERIFY(world.game->swapped);
-    const sim::GamePlayer& player = *world.game->player(TeamColor::Blue, 2);
-    QCOMPARE(player.penalty, sim::PenaltyKind::Incapable);
-    QCOMPARE(sim::secondsOf(player.ticksLeft, 60.0), 21);
+    const GamePlayer& player = *world.game->player(TeamColor::Blue, 2);
+    QCOMPARE(player.penalty, PenaltyKind::Incapable);
+    QCOMPARE(world.game->penaltySeconds(player), 21);
     QCOMPARE(world.settings.referee->packetVersion, version);
-    QVERIFY(world.settings.referee->automatic && !world.game->obeyed);
+    QVERIFY(world.settings.referee->automatic && !world.refereeMemory.obeyed);
     const auto text = scenarioToJson(made.scenario);
     QVERIFY(scenarioFromJson(text, "moment.json"));
   }
@@ -441,7 +538,7 @@ class TestMoments : public QObject {
     made.robots[1].runtime = {};
     const auto goesOn = SimulatedMatch::create(made, {});
     QVERIFY2(goesOn, goesOn ? "" : goesOn.error().text().c_str());
-    const sim::GameState& now = *goesOn->simulation().state().game;
+    const Game& now = *goesOn->simulation().state().game;
     QCOMPARE(now.clock, state.game->clock);
     QCOMPARE(now.state, state.game->state);
     QCOMPARE(now.stateTicks, state.game->stateTicks);
@@ -453,14 +550,15 @@ class TestMoments : public QObject {
 
   void missingColumnsAreNoError() {
     telemetry::SeriesStore store;
-    telemetry::GroupInfo strange{"X1",
-                                 {{"NEVER_HEARD_OF",
-                                   telemetry::ColumnType::Int32,
-                                   "",
-                                   "",
-                                   telemetry::ColumnKind::Number,
-                                   {}}},
-                                 {{"robot", "1"}, {"number", "999999999999"}, {"team", "green"}}};
+    telemetry::GroupInfo strange{
+        "X1",
+        {{"NEVER_HEARD_OF",
+          telemetry::ColumnType::Int32,
+          "",
+          "",
+          telemetry::ColumnKind::Number,
+          {}}},
+        telemetry::facts({{"robot", "1"}, {"number", "999999999999"}, {"team", "green"}})};
     const auto id = store.addGroup(strange);
     const std::uint32_t word = 7;
     store.append(id, {1.0, {&word, 1}, {}});

@@ -354,11 +354,11 @@ class TestMonteCarloLocalization : public QObject {
 
   void badParametersAreRefused() {
     LocalizationParameters none;
-    none.leastParticles = 0;
+    none.minParticles = 0;
     QVERIFY(!MonteCarloLocalization::create({}, none));
     LocalizationParameters crossed;
-    crossed.leastParticles = 600;
-    crossed.mostParticles = 500;
+    crossed.minParticles = 600;
+    crossed.maxParticles = 500;
     QVERIFY(!MonteCarloLocalization::create({}, crossed));
     LocalizationParameters sharp;
     sharp.bearingSigma = 0;

@@ -16,6 +16,7 @@ namespace tst_process_manager {
 
 using namespace pitchboard;
 using namespace pitchboard::link;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -60,13 +61,13 @@ class TestProcessManager : public QObject {
     if (!id) qWarning("%s", id.error().text().c_str());
     return id ? *id : 0;
   }
-  void look() {
-    (void)m_manager->step(SteadyClock::now());
-    for (ProcessNews& one : m_manager->takeNews()) m_news.push_back(std::move(one));
-    for (ProcessLine& one : m_manager->takeLines()) m_lines.push_back(std::move(one.text));
+  void look(SteadyClock::time_point now = SteadyClock::now()) {
+    (void)m_manager->step(now);
+    for (ProcessNews& one : m_manager->drainNews()) m_news.push_back(std::move(one));
+    for (ProcessLine& one : m_manager->drainLines()) m_lines.push_back(std::move(one.text));
   }
-  int count(Kind kind) {
-    look();
+  int count(Kind kind, SteadyClock::time_point now = SteadyClock::now()) {
+    look(now);
     return static_cast<int>(std::count_if(m_news.begin(), m_news.end(),
                                           [kind](const auto& one) { return one.kind == kind; }));
   }
@@ -98,7 +99,7 @@ class TestProcessManager : public QObject {
     QVERIFY(status(id).restarts >= 1);
   }
 
-  // Who waits for it need not ask.
+  // A caller that waits for news does not have to poll.
   void itSignalsWhenAProcessHasNews() {
     const auto reports = [this] {
       pollfd waited{m_manager->descriptor(), POLLIN, 0};
@@ -145,12 +146,15 @@ class TestProcessManager : public QObject {
 
   void whoEndsAtOnceInALoopIsGivenUp() {
     ManagedProcess process = shell("exit 7");
-    process.restart.firstWait = process.restart.longestWait = RestartRule::Seconds(0.005);
+    process.restart.firstWait = process.restart.maxWait = RestartRule::Seconds(0.005);
     process.restart.giveUpAfter = 4;
     const int id = add(process);
     QTRY_COMPARE(count(Kind::GivenUp), 1);
     QCOMPARE(status(id).state, ProcessState::GivenUp);
     QCOMPARE(status(id).restarts, 4);
+    QCOMPARE(status(id).deaths, 5);
+    QCOMPARE(status(id).lastDeath, std::string("exit code 7"));
+    QVERIFY(status(id).keepsDying());
     m_manager->start(id, SteadyClock::now());  // by hand it may try again
     QTRY_COMPARE(count(Kind::GivenUp), 2);
     QCOMPARE(status(id).restarts, 8);  // a start by hand is none
@@ -159,7 +163,7 @@ class TestProcessManager : public QObject {
   void waitsGrowUpToALimit() {
     ManagedProcess process = shell("exit 1");
     process.restart.firstWait = RestartRule::Seconds(0.01);
-    process.restart.longestWait = RestartRule::Seconds(0.04);
+    process.restart.maxWait = RestartRule::Seconds(0.04);
     add(process);
     QTRY_VERIFY(count(Kind::Died) >= 5);
     std::vector<double> waits;
@@ -185,10 +189,10 @@ class TestProcessManager : public QObject {
     const int id = add(process);
     const pid_t first = status(id).pid;
     // While somebody sets it, it lives.
+    auto now = SteadyClock::now();  // made up from here: nobody waits
     for (int i = 0; i < 40; ++i) {
       m_board.write(IntVar{104}, 1);
-      QTest::qWait(10);
-      QCOMPARE(count(Kind::NotResponding), 0);
+      QCOMPARE(count(Kind::NotResponding, now += 10ms), 0);
     }
     QTRY_COMPARE(count(Kind::NotResponding), 1);
     if (restarts) {
@@ -213,10 +217,8 @@ class TestProcessManager : public QObject {
     process.responseTimeout = RestartRule::Seconds(0.05);
     m_board.write(IntVar{104}, 1);  // left by an earlier one
     const int id = add(process);
-    for (int i = 0; i < 30; ++i) {
-      QTest::qWait(10);
-      QCOMPARE(count(Kind::NotResponding), 0);
-    }
+    auto now = SteadyClock::now();
+    for (int i = 0; i < 30; ++i) QCOMPARE(count(Kind::NotResponding, now += 10ms), 0);
     QCOMPARE(status(id).state, ProcessState::Running);
     m_board.write(IntVar{104}, 1);
     look();
@@ -228,10 +230,8 @@ class TestProcessManager : public QObject {
     ManagedProcess process = shell("exec sleep 600");
     process.responseTimeout = RestartRule::Seconds(0.05);
     const int id = add(process);
-    for (int i = 0; i < 30; ++i) {
-      QTest::qWait(10);
-      look();
-    }
+    auto now = SteadyClock::now();
+    for (int i = 0; i < 30; ++i) look(now += 10ms);
     QCOMPARE(status(id).state, ProcessState::Running);
     // But one that somebody stopped is shown as silent, and is not ended for it.
     const pid_t pid = status(id).pid;
@@ -311,8 +311,13 @@ class TestProcessManager : public QObject {
     ManagedProcess process = shell("exec yes");
     const int id = add(process);
     for (int i = 0; i < 30; ++i) look();
-    QTRY_VERIFY((look(), m_manager->droppedLines() + m_lines.size() > 20'000));
-    QCOMPARE(status(id).lastLines.size(), ProcessStatus::mostLastLines);
+    const auto leftOut = [this] { return m_manager->statuses().at(0).linesLeftOut; };
+    QTRY_VERIFY((look(), leftOut() > 20'000));
+    // What is missing is counted, and the log of the program says so.
+    const auto isNotice = [](const std::string& line) { return line.ends_with("keep all of it"); };
+    QTRY_VERIFY((look(), std::ranges::any_of(m_lines, isNotice)));
+    for (const std::string& line : m_lines) QVERIFY(line == "y" || isNotice(line));
+    QCOMPARE(status(id).lastLines.size(), ProcessStatus::maxLastLines);
     QCOMPARE(status(id).lastLines.back(), std::string("y"));
   }
 

@@ -4,6 +4,7 @@
 #include <QtTest>
 
 #include <robotlink/live/live_pipeline.h>
+#include <robotlink/report/session_tally.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/moment_scenario.h>
@@ -19,6 +20,34 @@ class TestRecordedLive : public QObject {
   QTemporaryDir m_folder;
 
  private slots:
+  void jumpsOfTheBeliefAreNotWalked() {
+    const std::string path = m_folder.filePath("jumps.mcap").toStdString();
+    const LiveOptions live;
+    const telemetry::WallTime zero = std::chrono::system_clock::now();
+    auto recorder = LiveRecorder::create(path, live, zero).value();
+    LivePipeline pipeline(live, zero);
+    pipeline.observe(recorder, zero);
+    // 10 cm/s, a message a second; for three seconds it believes to be 5 m away.
+    for (int second = 1; second <= 20; ++second) {
+      const int x = 200 + 10 * second + (second >= 10 && second < 13 ? 500 : 0);
+      const std::string text =
+          "1 " + std::to_string(x) + " 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT";
+      telemetry::DatagramView datagram;
+      datagram.time = zero + std::chrono::seconds(second);
+      datagram.sender = {{0x7f000001}, 5000};
+      datagram.localPort = 1241;
+      datagram.payload = text;
+      pipeline.take(datagram);
+      (void)pipeline.advance(datagram.time);
+    }
+    QVERIFY(recorder->finish());
+    const auto session = telemetry::SessionReader::open(path).value();
+    const MatchStatistics s = statisticsOf(session, *session.range());
+    QCOMPARE(s.robots.size(), std::size_t{1});
+    const double walked = s.robots[0].distance.value_or(-1.0);
+    QVERIFY2(walked > 1.5 && walked < 2.0, std::to_string(walked).c_str());
+  }
+
   void liveIsRecordedAndSeenAgain() {
     const std::string path = m_folder.filePath("live.mcap").toStdString();
     LiveOptions live;
@@ -35,7 +64,7 @@ class TestRecordedLive : public QObject {
       pipeline.take(datagram);
     };
     receive(1.0, "1 450 300 90 12.5 80.0 10.0 1 1 1 0 1 8 0.5 189 OUT");
-    (void)pipeline.frame(zero + std::chrono::milliseconds(1500));
+    (void)pipeline.advance(zero + std::chrono::milliseconds(1500));
     receive(2.0, "1 460 300 90 12.5 80.0 10.0 1 1 1 1 1 8 0.5 189 OUT");
     telemetry::DatagramView packet;
     packet.payload = std::string_view("RGme\0\xff", 6);
@@ -43,10 +72,10 @@ class TestRecordedLive : public QObject {
     recorder->received({.time = 2.0, .view = packet, .teams = {}, .referee = &state});
     MatchFrame frame;
     frame.snapshot.time = 2.0;
-    frame.referee.emplace();
-    frame.referee->state = "PLAYING";
-    frame.referee->secondsLeft = 432;
-    frame.referee->teams[1].score = 3;
+    Game& game = frame.game.emplace();
+    game.state = PlayState::Playing;
+    game.clock = 432;
+    game.teams[1].score = 3;
     recorder->frameMade(frame);
     MatchEvent taken;
     taken.kind = MatchEventKind::PortLost;
@@ -79,7 +108,7 @@ class TestRecordedLive : public QObject {
       QCOMPARE(robot.values[i].name, team.robots[0].name(i));
     }
     // The packet itself was none that can be read; what others read decoded says nothing here.
-    QVERIFY(!seen.referee);
+    QVERIFY(!seen.game);
     QVERIFY(frames.frameAt(session, 1.1).robots[0].lamps[3].state !=
             telemetry::HeartbeatState::Working);
     QCOMPARE(momentFromSession(session, 2.0, VariableCatalog::published()).error().code,

@@ -13,9 +13,6 @@ namespace tst_referee {
 
 using namespace pitchboard;
 using sim::CallKind;
-using sim::PlayState;
-using sim::SetPlay;
-using Game = RefereeGame;
 
 namespace {
 
@@ -43,12 +40,12 @@ QString third(const telemetry::RefereeState& p) {
 struct Step {
   double time;
   const char* packet;
-  std::function<bool(Game&)> call = {};
+  std::function<bool(RefereeGame&)> call = {};
   const char* player = nullptr;
   bool leftIsTeam2 = false;
 };
 
-void play(Game& game, const std::vector<Step>& steps) {
+void play(RefereeGame& game, const std::vector<Step>& steps) {
   for (const Step& step : steps) {
     game.runTo(step.time);
     if (step.call) QVERIFY2(step.call(game), qPrintable(QString("call at %1 s").arg(step.time)));
@@ -65,22 +62,22 @@ void play(Game& game, const std::vector<Step>& steps) {
 }
 
 auto to(PlayState state) {
-  return [state](Game& g) { return g.state(state); };
+  return [state](RefereeGame& g) { return g.state(state); };
 }
 auto setPlay(SetPlay play, int team) {
-  return [play, team](Game& g) {
+  return [play, team](RefereeGame& g) {
     return g.call({.kind = CallKind::SetPlay, .team = team, .setPlay = play});
   };
 }
-bool next(Game& g) {
+bool next(RefereeGame& g) {
   return g.call({.kind = CallKind::NextStep});
 }
-bool goalOfTeam1(Game& g) {
+bool goalOfTeam1(RefereeGame& g) {
   return g.call({.kind = CallKind::Goal, .team = 0, .value = 1});
 }
-bool down(Game& g) {
+bool down(RefereeGame& g) {
   return g.call(
-      {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Incapable});
+      {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = PenaltyKind::Incapable});
 }
 
 }  // namespace
@@ -92,7 +89,7 @@ class TestReferee : public QObject {
   static std::vector<sim::RefereeCall> allCalls() {
     std::vector<sim::RefereeCall> calls;
     for (int kind = 0; kind <= static_cast<int>(CallKind::Automatic); ++kind) {
-      for (int team = sim::GameState::noTeam; team < 2; ++team) {
+      for (int team = Game::noTeam; team < 2; ++team) {
         for (const int value : {-1, 0, 1}) {
           for (int state = 0; state <= static_cast<int>(lastOf(PlayState{})); ++state) {
             calls.push_back({.kind = static_cast<CallKind>(kind),
@@ -100,7 +97,7 @@ class TestReferee : public QObject {
                              .team = team,
                              .robot = RobotId{value + 2},
                              .setPlay = static_cast<SetPlay>(value + 1),
-                             .penalty = static_cast<sim::PenaltyKind>(value + 1),
+                             .penalty = static_cast<PenaltyKind>(value + 1),
                              .value = value});
           }
         }
@@ -113,21 +110,21 @@ class TestReferee : public QObject {
   // In every state that a match comes to: what checkCall() refuses changes nothing, and the match
   // says the same.
   void checkReturnsTheErrorOfTheCall() {
-    const std::vector<std::function<bool(Game&)>> way{
+    const std::vector<std::function<bool(RefereeGame&)>> way{
         to(PlayState::Ready),
         to(PlayState::Set),
         to(PlayState::Playing),
         setPlay(SetPlay::CornerKick, 0),
         next,
-        [](Game& g) { return g.call({.kind = CallKind::Stop}); },
-        [](Game& g) { return g.call({.kind = CallKind::GoOn}); },
+        [](RefereeGame& g) { return g.call({.kind = CallKind::Stop}); },
+        [](RefereeGame& g) { return g.call({.kind = CallKind::GoOn}); },
         down,
         goalOfTeam1,
         to(PlayState::Set),
         to(PlayState::Playing),
         to(PlayState::Finished),
-        [](Game& g) { return g.call({.kind = CallKind::NextHalf}); }};
-    Game game("humanoid-2021");
+        [](RefereeGame& g) { return g.call({.kind = CallKind::NextHalf}); }};
+    RefereeGame game("humanoid-2021");
     int refused = 0, allowed = 0;
     for (std::size_t step = 0; step <= way.size(); ++step) {
       for (const sim::RefereeCall& call : allCalls()) {
@@ -151,7 +148,7 @@ class TestReferee : public QObject {
   }
 
   void workedMatchOf2024() {
-    Game game("humanoid-2021");
+    RefereeGame game("humanoid-2021");
     play(game, {
                    {0, "0 1 0 600/0"},
                    {10, "1 1 0 600/45", to(PlayState::Ready)},
@@ -189,7 +186,7 @@ class TestReferee : public QObject {
   }
 
   void workedMatchOf2026() {
-    Game game("humanoid-soccer-2026");
+    RefereeGame game("humanoid-soccer-2026");
     play(game, {
                    {0, "0 1 0 0 600/0"},
                    {10, "1 1 0 0 600/45", to(PlayState::Ready)},
@@ -227,7 +224,7 @@ class TestReferee : public QObject {
 
   void theTableOfTransitions() {
     // Everything else is refused and changes nothing.
-    const auto reach = [](Game& g, PlayState state) {
+    const auto reach = [](RefereeGame& g, PlayState state) {
       if (state == PlayState::Initial) return;
       QVERIFY(g.state(PlayState::Ready));
       if (state == PlayState::Ready) return;
@@ -242,9 +239,9 @@ class TestReferee : public QObject {
     for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
       for (int from = 0; from < 5; ++from) {
         for (int target = 0; target < 5; ++target) {
-          Game game(rules);
+          RefereeGame game(rules);
           reach(game, static_cast<PlayState>(from));
-          const sim::GameState before = game.game();
+          const Game before = game.game();
           const bool may =
               std::find(allowed.begin(), allowed.end(), std::pair(from, target)) != allowed.end();
           QCOMPARE(game.state(static_cast<PlayState>(target)), may);
@@ -255,7 +252,7 @@ class TestReferee : public QObject {
   }
 
   void aTieInAKnockoutGoesOnUntilTheShootOutIsDecided() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     sim::RefereeRules rules = *game.simulation->state().settings.referee;
     rules.halfTime = rules.extraHalfTime = 60;
     rules.knockout = true;
@@ -267,9 +264,9 @@ class TestReferee : public QObject {
       game.tick();
       phases.insert(static_cast<int>(game.game().phase));
       // The first team scores with its third shot.
-      if (game.game().phase == sim::GamePhase::ShootOut &&
-          game.game().state == PlayState::Playing && game.game().shooter == 0 &&
-          game.game().teams[0].penaltyShots == 3 && game.game().stateTicks == 30) {
+      if (game.game().phase == GamePhase::ShootOut && game.game().state == PlayState::Playing &&
+          game.game().shooter == 0 && game.game().teams[0].penaltyShots == 3 &&
+          game.game().stateTicks == 30) {
         QVERIFY(game.call({.kind = CallKind::Goal, .team = 0, .value = 1}));
       }
     }
@@ -280,8 +277,74 @@ class TestReferee : public QObject {
     QVERIFY(game.happened(sim::EventKind::FinalWhistle));
   }
 
+  // Three shots each, three of sudden death, then a coin: the same for the same seed.
+  void aShootOutOf2026EndsWithACoin() {
+    std::set<int> winners;
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      const auto play = [seed](int shotsThatScore) {
+        RefereeGame game("humanoid-soccer-2026", true);
+        sim::RefereeRules rules = *game.simulation->state().settings.referee;
+        rules.shotTime = 1;
+        rules.shotSetTime = rules.beforeHalf = 0;
+        game.simulation->editState().settings.seed = seed;
+        if (!game.simulation->setReferee(rules) ||
+            !game.simulation->startGame({.state = PlayState::Finished, .half = 2}) ||
+            !game.call({.kind = CallKind::ShootOut})) {
+          qFatal("no shoot-out");
+        }
+        int scored = 0;
+        while (!game.game().over && game.now() < 300.0) {
+          game.tick();
+          const Game& now = game.game();
+          if (now.state != PlayState::Playing || now.stateTicks != 10) continue;
+          if (now.teams[std::size_t(now.shooter)].penaltyShots > shotsThatScore) continue;
+          if (!game.call({.kind = CallKind::Goal, .team = now.shooter, .value = 1})) qFatal("goal");
+          ++scored;
+        }
+        if (scored != 2 * shotsThatScore) qFatal("%d shots scored", scored);
+        return game;
+      };
+      const int shotsThatScore = seed % 2 == 0 ? 0 : 2;
+      const RefereeGame game = play(shotsThatScore);
+      QVERIFY(game.game().over);
+      for (const GameTeam& team : game.game().teams) {
+        QCOMPARE(team.penaltyShots, 6);
+        QCOMPARE(team.score, shotsThatScore);
+      }
+      const auto toss = std::ranges::find(game.events, sim::EventKind::CoinToss, &sim::Event::kind);
+      QVERIFY(toss != game.events.end());
+      QCOMPARE(sim::tossWinner(game.simulation->state()), std::optional(toss->value));
+      QCOMPARE(sim::tossWinner(play(shotsThatScore).simulation->state()),
+               std::optional(toss->value));
+      winners.insert(toss->value);
+    }
+    QCOMPARE(winners.size(), std::size_t{2});
+  }
+
+  void suddenDeathEndsWhenOneTeamIsAhead() {
+    const sim::RefereeRules rules = RefereeGame::named("humanoid-soccer-2026", true);
+    Game game;
+    const auto decided = [&](int taken0, int scored0, int taken1, int scored1) {
+      game.teams[0].penaltyShots = taken0;
+      game.teams[0].singleShots = scored0;
+      game.teams[1].penaltyShots = taken1;
+      game.teams[1].singleShots = scored1;
+      return sim::shootOutDecided(game, rules);
+    };
+    QVERIFY(!decided(3, 0b001, 3, 0b100));
+    QVERIFY(!decided(4, 0b1001, 3, 0b100));
+    QVERIFY(decided(4, 0b1001, 4, 0b0100));
+    QVERIFY(!decided(5, 0b00001, 5, 0b10000));
+    QVERIFY(!decided(6, 0b000001, 5, 0b10000));
+    QVERIFY(decided(6, 0b000001, 6, 0b010000));
+    // The Humanoid League's has no coin.
+    sim::RefereeRules older = RefereeGame::named("humanoid-2021", true);
+    older.shots = 3;
+    QVERIFY(!sim::shootOutDecided(game, older));
+  }
+
   void allShotsOfAShootOutGoToTheSameGoal() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     sim::RefereeRules rules = *game.simulation->state().settings.referee;
     rules.shotTime = 5;
     rules.shots = 3;
@@ -317,7 +380,7 @@ class TestReferee : public QObject {
   void aHalfEndsInReady() {
     QFETCH(QString, rules);
     QFETCH(int, state);
-    Game game(rules.toLatin1().constData(), true);
+    RefereeGame game(rules.toLatin1().constData(), true);
     sim::GameStart start;
     start.state = PlayState(state);
     start.half = 2;
@@ -339,20 +402,150 @@ class TestReferee : public QObject {
     for (const auto& [rules, seconds] :
          {std::pair("humanoid-2014", 120), std::pair("humanoid-2021", 600),
           std::pair("humanoid-soccer-2026", 600)}) {
-      Game game(rules);
-      QVERIFY(game.call({.kind = CallKind::Timeout, .team = sim::GameState::noTeam}));
+      RefereeGame game(rules);
+      QVERIFY(game.call({.kind = CallKind::Timeout, .team = Game::noTeam}));
       QCOMPARE(game.packet().secondaryTime, std::optional<int>(seconds));
     }
-    Game game("humanoid-2021");
+    RefereeGame game("humanoid-2021");
     QVERIFY(game.call({.kind = CallKind::Timeout, .team = 0}));
     QCOMPARE(game.packet().secondaryTime, std::optional<int>(120));
   }
 
+  // A scenario that began in a timeout, or a timeout that a person gave, never ended.
+  void theAutomaticRefereeEndsATimeout_data() {
+    QTest::addColumn<QString>("rules");
+    QTest::addColumn<double>("countdown");  // negative: the scenario does not say it
+    QTest::addColumn<bool>("runs");
+    QTest::addColumn<double>("ends");
+    for (const char* rules : {"humanoid-2014", "humanoid-2021", "humanoid-soccer-2026"}) {
+      QTest::addRow("%s", rules) << rules << -1.0 << true << 20.0;
+      QTest::addRow("%s, 4 s left", rules) << rules << 4.0 << true << 4.0;
+      QTest::addRow("%s, a countdown that stands", rules) << rules << 4.0 << false << 20.0;
+    }
+  }
+  void theAutomaticRefereeEndsATimeout() {
+    QFETCH(QString, rules);
+    QFETCH(double, countdown);
+    QFETCH(bool, runs);
+    QFETCH(double, ends);
+    sim::RefereeRules with = RefereeGame::named(rules.toLatin1().constData(), true);
+    with.timeoutTime = 20;
+    RefereeGame game(with);
+    sim::GameStart start;
+    start.phase = GamePhase::Timeout;
+    start.clock = 300;
+    start.kickOff = sim::GameStart::KickOff{TeamColor::Red};
+    if (countdown >= 0.0) start.countdown = countdown;
+    if (!runs) start.countdownRuns = false;
+    QVERIFY(game.simulation->startGame(start));
+    game.runTo(ends - 0.1);
+    QCOMPARE(game.game().phase, GamePhase::Timeout);
+    QCOMPARE(game.game().state, PlayState::Initial);
+    game.runTo(ends + 0.1);
+    QCOMPARE(game.game().phase, GamePhase::Normal);
+    QCOMPARE(game.game().state, PlayState::Ready);
+    QCOMPARE(game.game().kickOff, 1);
+    QCOMPARE(game.packet().secsRemaining, 300);
+    QVERIFY(game.happened(sim::EventKind::PhaseChanged));
+    // One that a person gave.
+    QVERIFY(game.call({.kind = CallKind::Timeout, .team = 0}));
+    game.runTo(game.now() + 20.1);
+    QCOMPARE(game.game().state, PlayState::Ready);
+    // Without the automatic referee it lasts until somebody calls READY.
+    sim::WorldState byHand = game.simulation->state();
+    byHand.settings.referee->automatic = false;
+    QVERIFY(game.simulation->restore(byHand));
+    QVERIFY(game.call({.kind = CallKind::Timeout, .team = 1}));
+    game.runTo(game.now() + 30);
+    QCOMPARE(game.game().phase, GamePhase::Timeout);
+  }
+
+  void aTimeoutBeforeAShootOutIsFollowedByTheFirstShot() {
+    sim::RefereeRules rules = RefereeGame::named("humanoid-soccer-2026", true);
+    rules.timeoutTime = 5;
+    RefereeGame game(rules);
+    QVERIFY(game.simulation->startGame({.state = PlayState::Finished, .half = 2}));
+    QVERIFY(game.call({.kind = CallKind::ShootOut}));
+    QVERIFY(game.call({.kind = CallKind::Timeout, .team = 0}));
+    game.runTo(5.1);
+    QCOMPARE(game.game().phase, GamePhase::ShootOut);
+    QCOMPARE(game.game().state, PlayState::Set);
+    QCOMPARE(game.game().teams[0].penaltyShots, 1);
+    // A shot is not interrupted.
+    QVERIFY(!game.call({.kind = CallKind::Timeout, .team = 1}));
+  }
+
+  void aTimeoutThatCannotEndIsRefused() {
+    RefereeGame game("humanoid-2021", true);
+    sim::GameStart start{.state = PlayState::Playing, .phase = GamePhase::Timeout};
+    const auto running = game.simulation->startGame(start);
+    QVERIFY(!running && running.error().text().find("initial") != std::string::npos);
+    start.state = PlayState::Initial;
+    start.phaseBefore = GamePhase::Timeout;
+    const auto endless = game.simulation->startGame(start);
+    QVERIFY(!endless && endless.error().text().find("phase_before") != std::string::npos);
+  }
+
+  // 30 s became 28 and 26 while the ball was placed (2026).
+  void penaltyTimeWaitsWhilePlayIsStopped() {
+    for (const char* rules : {"humanoid-2021", "humanoid-soccer-2026"}) {
+      RefereeGame game(rules);
+      const auto left = [&game] { return game.game().teams[0].players[2].ticksLeft; };
+      sim::GameStart start{.state = PlayState::Playing, .clock = 300};
+      start.robots[RobotId{3}] = {
+          .penalty = PenaltyKind::Incapable, .left = 30, .outside = true, .counts = true};
+      QVERIFY(game.simulation->startGame(start));
+      game.runTo(1);
+      QCOMPARE(left(), 29 * 60);
+      QVERIFY(setPlay(SetPlay::ThrowIn, 1)(game));
+      game.runTo(4);
+      QCOMPARE(left(), 29 * 60);
+      QVERIFY(game.call({.kind = CallKind::SetPlay, .team = 1, .setPlay = SetPlay::None}));
+      game.runTo(5);
+      QCOMPARE(left(), 28 * 60);
+      QVERIFY(game.call({.kind = CallKind::Stop}));
+      game.runTo(8);
+      QCOMPARE(left(), 28 * 60);
+      QVERIFY(game.call({.kind = CallKind::GoOn}));
+      QVERIFY(game.state(PlayState::Ready));
+      game.runTo(9);
+      QCOMPARE(left(), 27 * 60);
+      QVERIFY(game.call({.kind = CallKind::Stop}));
+      game.runTo(10);
+      QCOMPARE(left(), 27 * 60);
+    }
+    // In 2014 it counts from the call, whatever happens.
+    RefereeGame game("humanoid-2014");
+    QVERIFY(game.simulation->startGame({.state = PlayState::Playing, .clock = 300}));
+    QVERIFY(game.call(
+        {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = PenaltyKind::Incapable}));
+    QVERIFY(game.call({.kind = CallKind::Stop}));
+    game.runTo(2);
+    QVERIFY(game.game().teams[0].players[2].ticksLeft <= 28 * 60);
+  }
+
+  // Motion in SET is a short penalty on the field; motion while play is stopped a removal.
+  void motionInStopIsARemoval() {
+    RefereeGame game("humanoid-soccer-2026");
+    QVERIFY(game.simulation->startGame({.state = PlayState::Playing, .clock = 300}));
+    for (const auto& [robot, kind] :
+         {std::pair(2, PenaltyKind::MotionInSet), std::pair(3, PenaltyKind::MotionInStop)}) {
+      QVERIFY(game.call({.kind = CallKind::Penalise, .robot = RobotId{robot}, .penalty = kind}));
+    }
+    game.runTo(4);
+    const auto robots = game.simulation->snapshot().robots;
+    QVERIFY(std::abs(robots[1].pose.position.y) < 3.0);
+    QVERIFY(std::abs(robots[2].pose.position.y) > 3.0);
+    const auto& players = game.game().teams[0].players;
+    QVERIFY(players[1].ticksLeft > 10 * 60 && players[1].ticksLeft <= 15 * 60);
+    QVERIFY(players[2].ticksLeft > 40 * 60);
+  }
+
   void readyEndsWhenAllStand() {
     for (const double still : {0.0, 5.0}) {
-      sim::RefereeRules rules = Game::named("humanoid-2021", true);
+      sim::RefereeRules rules = RefereeGame::named("humanoid-2021", true);
       rules.readyStillTime = still;
-      Game game(rules);
+      RefereeGame game(rules);
       QVERIFY(game.simulation->startGame({.state = PlayState::Ready}));
       game.runTo(3);
       // Somebody still turns.
@@ -361,7 +554,7 @@ class TestReferee : public QObject {
       QCOMPARE(game.game().state, PlayState::Ready);
       game.runTo(8.2);
       QCOMPARE(game.game().state, still > 0.0 ? PlayState::Set : PlayState::Ready);
-      // Who stands in the other half is waited for.
+      // Play waits for a robot that stands in the wrong half.
       QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 2.0}, 0.5}));
       QVERIFY(game.simulation->startGame({.state = PlayState::Ready}));
       game.runTo(game.now() + 44.9);
@@ -372,7 +565,7 @@ class TestReferee : public QObject {
   }
 
   void goalsAreCountedByHalf() {
-    Game game("humanoid-2021");
+    RefereeGame game("humanoid-2021");
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.half = 2;
@@ -387,13 +580,13 @@ class TestReferee : public QObject {
   }
 
   void aGameBeginsInAnyState() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     // A goal kick as by the call: the ball goes to the front corner of the goal area.
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 60;
     start.setPlay = sim::GameStart::Taking{SetPlay::GoalKick, TeamColor::Blue, {}, Point{-4.6, 2}};
-    start.robots[RobotId{5}] = {.penalty = sim::PenaltyKind::SentOff, .red = 1};
+    start.robots[RobotId{5}] = {.penalty = PenaltyKind::SentOff, .red = 1};
     QVERIFY(game.simulation->startGame(start));
     QCOMPARE(game.game().setPlay(), SetPlay::GoalKick);
     QVERIFY(game.game().stopped);
@@ -408,8 +601,8 @@ class TestReferee : public QObject {
     QVERIFY(game.simulation->startGame(start));
     QCOMPARE(game.game().state, PlayState::Ready);
     QCOMPARE(game.game().setPlayTeam(), 1);
-    // Whoever does not play is named, and nothing has changed.
-    const sim::GameState before = game.game();
+    // The error names the team that does not play, and nothing has changed.
+    const Game before = game.game();
     start.left = TeamColor::Orange;
     const auto refused = game.simulation->startGame(start);
     QVERIFY(!refused && refused.error().message.find("orange") != std::string::npos);
@@ -417,7 +610,7 @@ class TestReferee : public QObject {
   }
 
   void aSavedMomentGoesOnAsItDid() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     game.runTo(62);
     QVERIFY(game.simulation->placeBall({0.5, 2.9}, {0.0, 2.0}));
     const sim::WorldState saved = game.simulation->state();

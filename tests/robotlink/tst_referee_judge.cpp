@@ -7,9 +7,6 @@ namespace tst_referee_judge {
 
 using namespace pitchboard;
 using sim::CallKind;
-using sim::PlayState;
-using sim::SetPlay;
-using Game = RefereeGame;
 
 class TestRefereeJudge : public QObject {
   Q_OBJECT
@@ -27,7 +24,7 @@ class TestRefereeJudge : public QObject {
   void aGoalCountsAtEveryRate() {
     QFETCH(double, rate);
     QFETCH(double, speed);
-    Game game("humanoid-2021", true, rate);
+    RefereeGame game("humanoid-2021", true, rate);
     game.simulation->editState().game->breakLeft = 0;
     game.runTo(80);  // READY, SET, PLAYING, and the ball is everybody's
     QCOMPARE(game.game().state, PlayState::Playing);
@@ -41,7 +38,7 @@ class TestRefereeJudge : public QObject {
   }
 
   void aBallPutBehindTheNetIsNoGoal() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     game.runTo(80);
     QVERIFY(game.simulation->placeBall({5.3, 0.0}));
     game.runTo(81);
@@ -50,7 +47,7 @@ class TestRefereeJudge : public QObject {
   }
 
   void theBallGoesToWhoDidNotTouchItLast() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     game.runTo(80);
     // Blue 2 stands at (-2.5, 2): the ball rolls past it over the touch line.
     game.touch({-2.5, 2.0 + game.atTheBall()}, {0.0, 3.0});
@@ -64,7 +61,7 @@ class TestRefereeJudge : public QObject {
 
   void overTheGoalLineItIsACornerOrAGoalKick() {
     for (const bool byDefender : {true, false}) {
-      Game game("humanoid-soccer-2026", true);
+      RefereeGame game("humanoid-soccer-2026", true);
       game.runTo(80);
       const int robot = byDefender ? 4 : 2;  // red 1 or blue 2, before the right goal line
       QVERIFY(game.simulation->placeRobot(RobotId{robot}, {{4.0, 2.5}, 0.0}));
@@ -77,7 +74,7 @@ class TestRefereeJudge : public QObject {
   }
 
   void rulesCanBeSwitchedOff() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     sim::RefereeRules rules = *game.simulation->state().settings.referee;
     rules.throwIns = false;
     rules.dropBalls = false;
@@ -93,19 +90,19 @@ class TestRefereeJudge : public QObject {
   }
 
   void aBallThatLiesStillIsDropped() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     game.runTo(60.1);
     QCOMPARE(game.game().state, PlayState::Playing);
     game.runTo(60 + 29);
     QCOMPARE(game.game().state, PlayState::Playing);
     game.runTo(60 + 32);
     QCOMPARE(game.game().state, PlayState::Ready);
-    QCOMPARE(game.game().kickOff, sim::GameState::noTeam);
+    QCOMPARE(game.game().kickOff, Game::noTeam);
     QCOMPARE(game.packet().kickOffRaw, 128);
   }
 
   void whoStandsInTheOtherHalfBeginsOutside() {
-    Game game("humanoid-2021", true);
+    RefereeGame game("humanoid-2021", true);
     game.runTo(56);
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 1.0}, 0.0}));
     game.runTo(64);
@@ -115,10 +112,10 @@ class TestRefereeJudge : public QObject {
   }
 
   void aPenalisedRobotIsPutOutsideAndComesBack() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     game.runTo(75);
     QVERIFY(game.call(
-        {.kind = CallKind::Penalise, .robot = RobotId{2}, .penalty = sim::PenaltyKind::Pushing}));
+        {.kind = CallKind::Penalise, .robot = RobotId{2}, .penalty = PenaltyKind::Pushing}));
     game.runTo(79);
     const Pose pose = game.simulation->snapshot().robots[1].pose;
     QVERIFY2(std::abs(pose.position.y) > 3.0, qPrintable(QString::number(pose.position.y)));
@@ -126,8 +123,8 @@ class TestRefereeJudge : public QObject {
     QCOMPARE(game.packet().team(1)->allSlots[1].penalty, 10);
     // A second one of the team lasts ten seconds longer.
     QVERIFY(game.call(
-        {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = sim::PenaltyKind::Pushing}));
-    QCOMPARE(sim::secondsOf(game.game().teams[0].players[2].ticksLeft, 60.0), 55);
+        {.kind = CallKind::Penalise, .robot = RobotId{3}, .penalty = PenaltyKind::Pushing}));
+    QCOMPARE(game.game().seconds(game.game().teams[0].players[2].ticksLeft), 55);
   }
 
   void aDoubleTouchIsAFreeKick_data() {
@@ -142,12 +139,12 @@ class TestRefereeJudge : public QObject {
     QFETCH(QString, rules);
     QFETCH(bool, passes);
     QFETCH(bool, isFoul);
-    Game game(rules.toLatin1().constData(), true);
+    RefereeGame game(rules.toLatin1().constData(), true);
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 300;
-    start.setPlay = sim::GameStart::Taking{SetPlay::ThrowIn, TeamColor::Blue,
-                                           sim::Restart::Step::Taking, Point{-2.5, 2.3}};
+    start.setPlay = sim::GameStart::Taking{SetPlay::ThrowIn, TeamColor::Blue, Restart::Step::Taking,
+                                           Point{-2.5, 2.3}};
     QVERIFY(game.simulation->placeBall({-2.5, 2.0 + game.atTheBall()}));  // blue 2 has it
     QVERIFY(game.simulation->startGame(start));
     game.runTo(0.1);
@@ -167,7 +164,7 @@ class TestRefereeJudge : public QObject {
   }
 
   void theFourthInTheGoalAreaGoes() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     QVERIFY(game.simulation->addRobot({RobotId{7}, TeamColor::Blue, 4, false}, {{0, -2.5}, 0}));
     game.commands.resize(7);
     game.percepts.resize(7);
@@ -187,9 +184,9 @@ class TestRefereeJudge : public QObject {
     game.runTo(game.now() + 0.5);
     QVERIFY(!game.happened(sim::EventKind::Penalised));
     game.runTo(game.now() + 1.0);
-    QCOMPARE(game.game().teams[0].players[3].penalty, sim::PenaltyKind::IllegalPosition);
+    QCOMPARE(game.game().teams[0].players[3].penalty, PenaltyKind::IllegalPosition);
     for (const int other : {0, 1, 2}) {
-      QCOMPARE(game.game().teams[0].players[std::size_t(other)].penalty, sim::PenaltyKind::None);
+      QCOMPARE(game.game().teams[0].players[std::size_t(other)].penalty, PenaltyKind::None);
     }
   }
 
@@ -197,7 +194,7 @@ class TestRefereeJudge : public QObject {
     // As adult-size robots: half a second until they notice, then 19.6 s. Lying counts, getting up
     // does not.
     for (const bool getsUp : {true, false}) {
-      Game game("humanoid-2021", true);
+      RefereeGame game("humanoid-2021", true);
       sim::GameStart start;
       start.state = PlayState::Playing;
       start.clock = 300;
@@ -207,33 +204,33 @@ class TestRefereeJudge : public QObject {
       body.getUpRemaining = 25;
       game.runTo(22);
       QCOMPARE(game.game().teams[0].players[1].penalty,
-               getsUp ? sim::PenaltyKind::None : sim::PenaltyKind::Incapable);
+               getsUp ? PenaltyKind::None : PenaltyKind::Incapable);
     }
   }
 
   void whoComesBackIsNotLeaving() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 300;
-    start.robots[RobotId{2}] = {.penalty = sim::PenaltyKind::Pushing, .left = 1.0, .outside = true};
+    start.robots[RobotId{2}] = {.penalty = PenaltyKind::Pushing, .left = 1.0, .outside = true};
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 3.6}, -1.57}));
     QVERIFY(game.simulation->placeRobot(RobotId{3}, {{1, 2.0}, -1.57}));  // cares for the ball
     QVERIFY(game.simulation->placeBall({1, 1.2}));
     QVERIFY(game.simulation->startGame(start));
     game.runTo(40);
-    const sim::GamePlayer& back = game.game().teams[0].players[1];
-    QCOMPARE(back.penalty, sim::PenaltyKind::None);
+    const GamePlayer& back = game.game().teams[0].players[1];
+    QCOMPARE(back.penalty, PenaltyKind::None);
     // Once it was inside, it leaves as everybody else does.
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 2.0}, -1.57}));
     game.runTo(41);
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-3, 3.6}, -1.57}));
     game.runTo(62);
-    QCOMPARE(back.penalty, sim::PenaltyKind::Leaving);
+    QCOMPARE(back.penalty, PenaltyKind::Leaving);
   }
 
   void aRobotIsNotRemovedFromAHeapTwice() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 300;
@@ -241,56 +238,55 @@ class TestRefereeJudge : public QObject {
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
     QVERIFY(game.simulation->placeRobot(RobotId{3}, {{-1, -0.45}, 0}));
     QVERIFY(game.simulation->startGame(start));
-    const sim::GamePlayer& nearest = game.game().teams[0].players[1];
-    const sim::GamePlayer& other = game.game().teams[0].players[2];
+    const GamePlayer& nearest = game.game().teams[0].players[1];
+    const GamePlayer& other = game.game().teams[0].players[2];
     game.runTo(10.2);
-    QCOMPARE(nearest.penalty, sim::PenaltyKind::LocalStuck);
+    QCOMPARE(nearest.penalty, PenaltyKind::LocalStuck);
     QVERIFY(game.call({.kind = CallKind::Pardon, .robot = RobotId{2}}));
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
     game.runTo(19);
-    QCOMPARE(other.penalty, sim::PenaltyKind::None);  // ten seconds more after a removal
+    QCOMPARE(other.penalty, PenaltyKind::None);  // ten seconds more after a removal
     game.runTo(31);
-    QCOMPARE(nearest.penalty, sim::PenaltyKind::None);
-    QCOMPARE(other.penalty, sim::PenaltyKind::LocalStuck);
+    QCOMPARE(nearest.penalty, PenaltyKind::None);
+    QCOMPARE(other.penalty, PenaltyKind::LocalStuck);
   }
 
   // At the whistle, in the other half: removed, but not while it comes back from a penalty.
   void whoComesBackMayStandAnywhere() {
     for (const bool comesBack : {false, true}) {
-      Game game("humanoid-2014", true);
+      RefereeGame game("humanoid-2014", true);
       sim::GameStart start;
       start.state = PlayState::Ready;
       if (comesBack) {
-        start.robots[RobotId{2}] = {
-            .penalty = sim::PenaltyKind::Pushing, .left = 20.0, .outside = true};
+        start.robots[RobotId{2}] = {.penalty = PenaltyKind::Pushing, .left = 20.0, .outside = true};
       }
       QVERIFY(game.simulation->placeRobot(RobotId{2}, {{1.5, 2.0}, 0.0}));
       QVERIFY(game.simulation->startGame(start));
       game.runTo(31);
       QCOMPARE(game.game().state, PlayState::Set);
-      QCOMPARE(game.game().teams[0].players[1].penalty, sim::PenaltyKind::None);
+      QCOMPARE(game.game().teams[0].players[1].penalty, PenaltyKind::None);
       game.runTo(36);
       QCOMPARE(game.game().state, PlayState::Playing);
       QCOMPARE(game.game().teams[0].players[1].penalty,
-               comesBack ? sim::PenaltyKind::None : sim::PenaltyKind::IllegalPosition);
+               comesBack ? PenaltyKind::None : PenaltyKind::IllegalPosition);
     }
   }
 
   void aBallIsStuckWhileRobotsAreAtIt() {
-    Game game("humanoid-soccer-2026", true);
+    RefereeGame game("humanoid-soccer-2026", true);
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 300;
     QVERIFY(game.simulation->placeBall({-1, 0}));
     QVERIFY(game.simulation->placeRobot(RobotId{3}, {{-1, -0.9}, 0}));  // cares for it from afar
     QVERIFY(game.simulation->startGame(start));
-    const sim::GamePlayer& nearest = game.game().teams[0].players[1];
+    const GamePlayer& nearest = game.game().teams[0].players[1];
     game.runTo(15);
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{-1, 0.4}, 0}));
     game.runTo(24.8);  // ten seconds begin when somebody comes
-    QCOMPARE(nearest.penalty, sim::PenaltyKind::None);
+    QCOMPARE(nearest.penalty, PenaltyKind::None);
     game.runTo(25.2);
-    QCOMPARE(nearest.penalty, sim::PenaltyKind::LocalStuck);
+    QCOMPARE(nearest.penalty, PenaltyKind::LocalStuck);
   }
 
   void pushing_data() {
@@ -324,18 +320,18 @@ class TestRefereeJudge : public QObject {
     QFETCH(double, seconds);
     QFETCH(bool, removed);
     QFETCH(SetPlay, kick);
-    Game game(rules.toLatin1().constData(), true);
+    RefereeGame game(rules.toLatin1().constData(), true);
     sim::GameStart start;
     start.state = PlayState::Playing;
     start.clock = 300;
     QVERIFY(game.simulation->startGame(start));
-    const sim::GamePlayer& one = game.game().teams[0].players[1];
+    const GamePlayer& one = game.game().teams[0].players[1];
     // Blue 2 walks right into red 2 (robot 5), which stands between it and the ball.
     const double x = 0.0;
     const double touching = 2.0 * sim::robotRadius(game.simulation->state(), 0) + 0.005;
     game.commands[1].actionA = action;
     const auto isCalled = [&] {
-      return one.penalty != sim::PenaltyKind::None || !game.game().ballFree();
+      return one.penalty != PenaltyKind::None || !game.game().ballFree();
     };
     double called = 0.0;
     while (game.now() < 8.0 && called == 0.0) {
@@ -346,7 +342,7 @@ class TestRefereeJudge : public QObject {
       if (isCalled()) called = game.now();
     }
     QVERIFY2(std::abs(called - seconds) < 0.6, qPrintable(QString::number(called)));
-    QCOMPARE(one.penalty == sim::PenaltyKind::Pushing, removed);
+    QCOMPARE(one.penalty == PenaltyKind::Pushing, removed);
     QCOMPARE(game.game().restart.kind, kick);
     if (kick != SetPlay::None) QCOMPARE(game.game().restart.team, 1);
   }

@@ -4,6 +4,8 @@
 
 #include <QtTest>
 
+#include <telemetry/wire/gamecontroller.h>
+
 #include "../support/recorded_packets.h"
 
 namespace tst_referee_orders {
@@ -19,8 +21,7 @@ telemetry::RefereeState recorded(const char* name) {
 
 /// Of a robot that has just been started.
 std::optional<int> wordOf(const telemetry::RefereeState& state, int team, int player) {
-  const auto order = link::RefereeOrders().take(state, team, player);
-  return order ? std::optional(order->code) : std::nullopt;
+  return link::RefereeOrders().take(telemetry::gameOf(state), team, player);
 }
 
 /// A packet of the Humanoid League, 688 bytes, of teams 1 and 2.
@@ -63,7 +64,7 @@ class TestRefereeOrders : public QObject {
     for (const telemetry::RefereeTeam& team : state.teams) {
       for (std::size_t i = 0; i < team.players().size(); ++i) {
         if (team.players()[i].penalty != 0) continue;
-        // Who has not got the kick-off stands until the ball is free.
+        // The team without the kick-off stands until the ball is free.
         const bool waits = word == link::refereePlay && state.secondaryTime.value_or(0) > 0 &&
                            state.kickOffTeam && state.kickOffTeam != team.number;
         if (waits) {
@@ -116,15 +117,14 @@ class TestRefereeOrders : public QObject {
           {humanoid(3, 1, phase, 10), link::refereeSet, link::refereePlay}};
       link::RefereeOrders takers, others;
       for (const Step& step : steps) {
-        const auto take = takers.take(step.packet, 2, 1), wait = others.take(step.packet, 1, 1);
+        const Game game = telemetry::gameOf(step.packet);
+        const auto take = takers.take(game, 2, 1), wait = others.take(game, 1, 1);
         QVERIFY(take && wait);
-        QCOMPARE(take->code, step.takers);
-        QCOMPARE(wait->code, step.others);
+        QCOMPARE(*take, step.takers);
+        QCOMPARE(*wait, step.others);
         const bool given = step.packet.secState == throwIn;
-        QCOMPARE(take->setPlay, given ? sim::SetPlay::ThrowIn : sim::SetPlay::None);
-        QCOMPARE(wait->setPlay, take->setPlay);
-        QCOMPARE(take->setPlayIsOurs, given);
-        QVERIFY(!wait->setPlayIsOurs);
+        QCOMPARE(game.setPlay(), given ? SetPlay::ThrowIn : SetPlay::None);
+        QCOMPARE(game.setPlayTeam(), given ? game.teamNumbered(2) : Game::noTeam);
       }
     }
   }
@@ -142,17 +142,11 @@ class TestRefereeOrders : public QObject {
     QFETCH(int, word);
     QCOMPARE(wordOf(humanoid(3, 1, phase, 10), 2, 1).value_or(-1), word);
     auto soccer = humanoid(3, 1, 0, 10);
-    soccer.league = telemetry::League::HumanoidSoccer;
+    soccer.league = League::HumanoidSoccer;
     soccer.secState.reset();
     soccer.gamePhase = phase;
     soccer.setPlay = 0;
     QCOMPARE(wordOf(soccer, 2, 1).value_or(-1), word);
-  }
-
-  void trueDataIsNotForRobots() {
-    auto state = recorded("v11hl592_PLAYING");
-    state.magic[2] = 'T';
-    QVERIFY(!wordOf(state, state.teams[0].number, 1));
   }
 };
 

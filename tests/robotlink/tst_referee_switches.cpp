@@ -12,10 +12,6 @@ namespace tst_referee_switches {
 
 using namespace pitchboard;
 using sim::CallKind;
-using sim::PenaltyKind;
-using sim::PlayState;
-using sim::SetPlay;
-using Game = RefereeGame;
 using Rules = sim::RefereeRules;
 
 namespace {
@@ -23,7 +19,7 @@ namespace {
 /// A match of 2021 to 2024: PLAYING from 60 s on, and the ball is everybody's from 70 s on.
 struct Situation {
   std::function<void(Rules&)> rules;  ///< beside the one that is tried; may be empty
-  std::function<QString(Game&)> outcome;
+  std::function<QString(RefereeGame&)> outcome;
   const char* with;
   const char* without;
   double number = 0.0;  ///< the rule's value, where it is no switch
@@ -31,28 +27,28 @@ struct Situation {
 
 template <class Enum>
 QString words(Enum value) {
-  const std::string_view text = sim::labelOf(value);
+  const std::string_view text = labelOf(value);
   return text.empty() ? "none"
                       : QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
-QString penaltyOf(const Game& game, std::size_t team, std::size_t player) {
+QString penaltyOf(const RefereeGame& game, std::size_t team, std::size_t player) {
   return words(game.game().teams[team].players[player].penalty);
 }
-int secondsLeft(const Game& game, std::size_t player) {
-  return sim::secondsOf(game.game().teams[0].players[player].ticksLeft, 60.0);
+int secondsLeft(const RefereeGame& game, std::size_t player) {
+  return game.game().seconds(game.game().teams[0].players[player].ticksLeft);
 }
-bool penalise(Game& game, int robot) {
+bool penalise(RefereeGame& game, int robot) {
   return game.call(
       {.kind = CallKind::Penalise, .robot = RobotId{robot}, .penalty = PenaltyKind::Pushing});
 }
 
 /// Blue 2 walks on the spot against red 2, which is nearer to the ball, or as far from it.
-void pushes(Game& game, double toBall) {
+void pushes(RefereeGame& game, double toBall) {
   game.runTo(80);
   const double radius = sim::robotRadius(game.simulation->state(), 0);
   game.commands[1].actionA = 1;
   while (game.now() < 83.0 && game.game().ballFree() &&
-         game.game().teams[0].players[1].penalty == sim::PenaltyKind::None) {
+         game.game().teams[0].players[1].penalty == PenaltyKind::None) {
     // Where the one does not give way.
     QVERIFY(game.simulation->placeRobot(RobotId{5}, {{0.5, 1.0}, 0.0}));
     QVERIFY(game.simulation->placeRobot(RobotId{2}, {{0.5 - 2 * radius - 0.005, 1.0}, 0.0}));
@@ -62,7 +58,7 @@ void pushes(Game& game, double toBall) {
   game.commands[1].actionA = 0;
 }
 
-void rollsOut(Game& game, int robot, const Point& from, const Velocity& velocity) {
+void rollsOut(RefereeGame& game, int robot, const Point& from, const Velocity& velocity) {
   game.runTo(80);
   const bool up = velocity.y != 0.0;
   const Point ball{from.x + (up ? 0.0 : game.atTheBall()), from.y + (up ? game.atTheBall() : 0.0)};
@@ -71,11 +67,11 @@ void rollsOut(Game& game, int robot, const Point& from, const Velocity& velocity
   game.runTo(82);
 }
 
-QString firstPhaseAfterATie(Game& game) {
+QString firstPhaseAfterATie(RefereeGame& game) {
   for (int i = 0; i < 400 * 60 && !game.game().over; ++i) {
     game.tick();
-    if (game.game().phase == sim::GamePhase::ExtraTime) return "extra time";
-    if (game.game().phase == sim::GamePhase::ShootOut) return "shoot-out";
+    if (game.game().phase == GamePhase::ExtraTime) return "extra time";
+    if (game.game().phase == GamePhase::ShootOut) return "shoot-out";
   }
   return "over";
 }
@@ -88,7 +84,7 @@ void shortHalves(Rules& rules) {
 std::map<std::string, Situation> situations() {
   std::map<std::string, Situation> all;
   all["goals"] = {{},
-                  [](Game& g) {
+                  [](RefereeGame& g) {
                     g.runTo(80);
                     (void)g.simulation->placeBall({4.1, 0.6}, {8.0, 0.0});
                     g.runTo(81);
@@ -97,42 +93,42 @@ std::map<std::string, Situation> situations() {
                   "1",
                   "0"};
   all["throw_ins"] = {{},
-                      [](Game& g) {
+                      [](RefereeGame& g) {
                         rollsOut(g, 2, {-2.5, 2.0}, {0.0, 3.0});
                         return words(g.game().setPlay());
                       },
                       "throw-in",
                       "none"};
   all["goal_kicks"] = {{},
-                       [](Game& g) {
+                       [](RefereeGame& g) {
                          rollsOut(g, 2, {4.0, 2.5}, {3.0, 0.0});
                          return words(g.game().setPlay());
                        },
                        "goal kick",
                        "none"};
   all["corner_kicks"] = {{},
-                         [](Game& g) {
+                         [](RefereeGame& g) {
                            rollsOut(g, 4, {4.0, 2.5}, {3.0, 0.0});
                            return words(g.game().setPlay());
                          },
                          "corner kick",
                          "none"};
   all["free_kicks"] = {{},
-                       [](Game& g) {
+                       [](RefereeGame& g) {
                          pushes(g, 0.4);
                          return words(g.game().setPlay()) + ", " + penaltyOf(g, 0, 1);
                        },
                        "direct free kick, none",
                        "none, pushing"};
   all["drop_balls"] = {{},
-                       [](Game& g) {
+                       [](RefereeGame& g) {
                          g.runTo(95);
                          return words(g.game().state);
                        },
                        "READY",
                        "PLAYING"};
   all["kick_off_positions"] = {{},
-                               [](Game& g) {
+                               [](RefereeGame& g) {
                                  g.runTo(56);
                                  (void)g.simulation->placeRobot(RobotId{2}, {{1.5, 1.0}, 0.0});
                                  g.runTo(61);
@@ -141,7 +137,7 @@ std::map<std::string, Situation> situations() {
                                "illegal position",
                                "none"};
   all["exclusive_ball"] = {{},
-                           [](Game& g) {
+                           [](RefereeGame& g) {
                              g.runTo(61);  // the kick-off is blue's
                              (void)g.simulation->placeRobot(RobotId{5}, {{g.atTheBall(), 0}, 3.14});
                              g.runTo(61.5);
@@ -150,7 +146,7 @@ std::map<std::string, Situation> situations() {
                            "illegal position",
                            "none"};
   all["direct_goals"] = {{},
-                         [](Game& g) {
+                         [](RefereeGame& g) {
                            g.runTo(61);
                            (void)g.simulation->placeRobot(RobotId{2}, {{-g.atTheBall(), 0}, 0.0});
                            g.tick();  // takes the kick-off
@@ -162,11 +158,11 @@ std::map<std::string, Situation> situations() {
                          "1"};
   all["double_touch"] = {
       {},
-      [](Game& g) {
+      [](RefereeGame& g) {
         sim::GameStart start;
         start.state = PlayState::Playing;
         start.setPlay = sim::GameStart::Taking{
-            .kind = SetPlay::ThrowIn, .team = TeamColor::Blue, .step = sim::Restart::Step::Taking};
+            .kind = SetPlay::ThrowIn, .team = TeamColor::Blue, .step = Restart::Step::Taking};
         (void)g.simulation->placeBall({0.0, 2.9});
         (void)g.simulation->startGame(start);
         for (const Point& ball : {Point{0.0, 2.7}, Point{0.0, 2.0}}) {
@@ -181,7 +177,7 @@ std::map<std::string, Situation> situations() {
       "indirect free kick",
       "none"};
   all["change_sides"] = {shortHalves,
-                         [](Game& g) {
+                         [](RefereeGame& g) {
                            g.runTo(82);
                            return QString("half %1, %2")
                                .arg(g.game().half)
@@ -190,7 +186,7 @@ std::map<std::string, Situation> situations() {
                          "half 2, changed", "half 2, as before"};
   all["clock_stops_in_set_plays"] = {
       {},
-      [](Game& g) {
+      [](RefereeGame& g) {
         g.runTo(80);
         const int before = g.game().clock;
         (void)g.call({.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::ThrowIn});
@@ -200,14 +196,14 @@ std::map<std::string, Situation> situations() {
       "0",
       "120"};
   all["escalates"] = {[](Rules& rules) { rules.removalMore = 10; },
-                      [](Game& g) {
+                      [](RefereeGame& g) {
                         g.runTo(80);
                         (void)(penalise(g, 2) && penalise(g, 3));
                         return QString::number(secondsLeft(g, 2));
                       },
                       "40", "30"};
   all["counts_from_call"] = {{},
-                             [](Game& g) {
+                             [](RefereeGame& g) {
                                g.runTo(80);
                                (void)penalise(g, 2);
                                g.runTo(82);
@@ -217,7 +213,7 @@ std::map<std::string, Situation> situations() {
                              "30"};
   all["counts_always"] = {
       {},
-      [](Game& g) {
+      [](RefereeGame& g) {
         g.runTo(80);
         (void)g.call({.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::ThrowIn});
         (void)penalise(g, 2);
@@ -227,7 +223,7 @@ std::map<std::string, Situation> situations() {
       "26",
       "30"};
   all["pardons_at_play"] = {{},
-                            [](Game& g) {
+                            [](RefereeGame& g) {
                               g.runTo(50);
                               (void)penalise(g, 2);
                               g.runTo(61);
@@ -236,7 +232,7 @@ std::map<std::string, Situation> situations() {
                             "none",
                             "pushing"};
   all["half_ends_with_ball"] = {shortHalves,
-                                [](Game& g) {
+                                [](RefereeGame& g) {
                                   g.runTo(80.3);
                                   return words(g.game().state);
                                 },
@@ -248,7 +244,7 @@ std::map<std::string, Situation> situations() {
                        },
                        firstPhaseAfterATie, "extra time", "shoot-out"};
   all["automatic"] = {{},
-                      [](Game& g) {
+                      [](RefereeGame& g) {
                         g.runTo(15);
                         return words(g.game().state);
                       },
@@ -256,7 +252,7 @@ std::map<std::string, Situation> situations() {
                       "INITIAL"};
   // Numbers that 0 switches off.
   all["fallen_time"] = {{},
-                        [](Game& g) {
+                        [](RefereeGame& g) {
                           g.runTo(80);
                           while (g.now() < 82) {
                             auto& world = g.simulation->editState();
@@ -270,7 +266,7 @@ std::map<std::string, Situation> situations() {
                         "none",
                         1.0};
   all["leaving_time"] = {{},
-                         [](Game& g) {
+                         [](RefereeGame& g) {
                            g.runTo(80);
                            (void)g.simulation->placeRobot(RobotId{2}, {{-2.5, 3.4}, 0.0});
                            g.runTo(82);
@@ -280,19 +276,19 @@ std::map<std::string, Situation> situations() {
                          "none",
                          1.0};
   all["still_time"] = {[](Rules& rules) { rules.nobodyTime = 0; },
-                       [](Game& g) {
+                       [](RefereeGame& g) {
                          g.runTo(75);
                          return words(g.game().state);
                        },
                        "READY", "PLAYING", 10.0};
   all["nobody_time"] = {[](Rules& rules) { rules.stillTime = 0; },
-                        [](Game& g) {
+                        [](RefereeGame& g) {
                           g.runTo(75);
                           return words(g.game().state);
                         },
                         "READY", "PLAYING", 10.0};
   all["local_stuck_time"] = {{},
-                             [](Game& g) {
+                             [](RefereeGame& g) {
                                g.runTo(71);
                                (void)g.simulation->placeRobot(RobotId{2}, {{-0.4, 0.0}, 0.0});
                                g.runTo(80);
@@ -302,13 +298,13 @@ std::map<std::string, Situation> situations() {
                              "none",
                              5.0};
   all["pushing_time"] = {[](Rules& rules) { rules.freeKicks = false; },
-                         [](Game& g) {
+                         [](RefereeGame& g) {
                            pushes(g, 0.4);
                            return penaltyOf(g, 0, 1);
                          },
                          "pushing", "none", 1.0};
   all["motion_in_set"] = {{},
-                          [](Game& g) {
+                          [](RefereeGame& g) {
                             g.runTo(57);
                             (void)g.simulation->placeRobot(RobotId{2}, {{-2.5, 1.4}, 0.0});
                             g.runTo(58);
@@ -318,7 +314,7 @@ std::map<std::string, Situation> situations() {
                           "none",
                           0.2};
   all["goal_area_most"] = {{},
-                           [](Game& g) {
+                           [](RefereeGame& g) {
                              g.runTo(80);
                              (void)g.simulation->placeRobot(RobotId{2}, {{-4.2, 0.9}, 0.0});
                              g.runTo(82);
@@ -328,7 +324,7 @@ std::map<std::string, Situation> situations() {
                            "none",
                            1.0};
   all["ready_still_time"] = {{},
-                             [](Game& g) {
+                             [](RefereeGame& g) {
                                g.runTo(15);
                                return words(g.game().state);
                              },
@@ -336,7 +332,7 @@ std::map<std::string, Situation> situations() {
                              "READY",
                              2.0};
   all["mercy"] = {{},
-                  [](Game& g) {
+                  [](RefereeGame& g) {
                     g.runTo(80);
                     (void)g.call({.kind = CallKind::Goal, .team = 0, .value = 1});
                     return words(g.game().state);
@@ -346,7 +342,7 @@ std::map<std::string, Situation> situations() {
                   1.0};
   all["penalty_kick_ready"] = {
       {},
-      [](Game& g) {
+      [](RefereeGame& g) {
         g.runTo(80);
         (void)g.call({.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::PenaltyKick});
         return words(g.game().state);
@@ -378,7 +374,7 @@ class TestRefereeSwitches : public QObject {
     QVERIFY2(found != all.end(), "no situation for this rule");
     const Situation& situation = found->second;
     for (const bool on : {true, false}) {
-      Rules rules = Game::named("humanoid-2021", true);
+      Rules rules = RefereeGame::named("humanoid-2021", true);
       if (situation.rules) situation.rules(rules);
       for (const auto& one : sim::refereeSwitches) {
         if (key == one.key) rules.*one.member = on;
@@ -389,16 +385,16 @@ class TestRefereeSwitches : public QObject {
       for (const auto& one : sim::refereeCounts) {
         if (key == one.key) rules.*one.member = on ? static_cast<int>(situation.number) : 0;
       }
-      Game game(rules);
+      RefereeGame game(rules);
       QCOMPARE(situation.outcome(game), QString(on ? situation.with : situation.without));
     }
   }
 
   // In a shoot-out a goalkeeper is missing for longer than others: for the next shot, too.
   void aGoalkeeperThatIsRemovedMissesTheNextShot() {
-    Rules rules = Game::named("humanoid-2021", false);
+    Rules rules = RefereeGame::named("humanoid-2021", false);
     rules.placedAfter = 0;
-    Game game(rules);
+    RefereeGame game(rules);
     for (const PlayState state :
          {PlayState::Ready, PlayState::Set, PlayState::Playing, PlayState::Finished}) {
       QVERIFY(game.state(state));
@@ -415,7 +411,7 @@ class TestRefereeSwitches : public QObject {
     QVERIFY(!outside());
     QVERIFY(
         game.call({.kind = CallKind::Penalise, .robot = keeper, .penalty = PenaltyKind::Pushing}));
-    QCOMPARE(sim::secondsOf(game.game().teams[keepers].players[0].ticksLeft, 60.0), 120);
+    QCOMPARE(game.game().seconds(game.game().teams[keepers].players[0].ticksLeft), 120);
     QVERIFY(outside());
     for (int shot = 0; shot < 2; ++shot) {  // the other side's, then against it again
       QVERIFY(game.state(PlayState::Finished));

@@ -23,7 +23,7 @@ class TestReport : public QObject {
   telemetry::SeriesStore m_store;
   sim::Snapshot m_end;
   std::vector<float> m_errors;  // of the first robot
-  SessionStatistics m_statistics;
+  MatchStatistics m_statistics;
 
  private slots:
   void initTestCase() {
@@ -62,6 +62,30 @@ class TestReport : public QObject {
     QCOMPARE(m_statistics.teams.size(), std::size_t{2});
     QCOMPARE(*m_statistics.teams[0].score, m_end.score.left);
     QCOMPARE(*m_statistics.teams[1].score, m_end.score.right);
+  }
+
+  /// Two halves of a match add up to it, also when it is cut between two rows.
+  void partsAddUp_data() {
+    QTest::addColumn<double>("cut");
+    QTest::newRow("at a row") << 5.0;
+    QTest::newRow("between rows") << 5.0 + 1.0 / 240.0;
+  }
+  void partsAddUp() {
+    QFETCH(double, cut);
+    const auto first = statisticsOf(m_store, {0.0, cut}),
+               second = statisticsOf(m_store, {cut, played});
+    QCOMPARE(second.robots.size(), m_statistics.robots.size());
+    for (std::size_t i = 0; i < m_statistics.robots.size(); ++i) {
+      const RobotSummary& whole = m_statistics.robots[i];
+      const RobotSummary &a = first.robots[i], &b = second.robots[i];
+      QVERIFY(std::abs(*a.distance + *b.distance - *whole.distance) < 1e-9);
+      QCOMPARE(a.kicks + b.kicks, whole.kicks);
+      QCOMPARE(a.falls + b.falls, whole.falls);
+      QVERIFY(std::abs(a.seconds + b.seconds - whole.seconds) < 1.0 / 60.0);
+    }
+    for (std::size_t i = 0; i < m_statistics.teams.size(); ++i) {
+      QCOMPARE(first.teams[i].scored + second.teams[i].scored, m_statistics.teams[i].scored);
+    }
   }
 
   void teamsAreNamedWithTheirGoalsByHalf() {
@@ -198,7 +222,7 @@ class TestReport : public QObject {
       MatchEvent event;
       event.kind = kind;
       event.time = time;
-      event.robot = blue(1);
+      event.robot = uidOf(blue(1));
       event.name = "B1";
       event.process = "localization";
       event.detail = detail;

@@ -118,7 +118,7 @@ class TestRobotModels : public QObject {
  private slots:
   void theModelDecidesWhenABatteryIsLow() {
     // The usual limits are those of the published robot.
-    const auto usual = telemetry::usualBattery;
+    const auto usual = telemetry::defaultBattery;
     const auto published = batteryLimitsOf(sim::RobotModel());
     for (const double volts : {14.0, 14.7, 15.9, 16.1, 18.9, 20.0}) {
       const auto one = telemetry::batteryAt(volts, published);

@@ -102,7 +102,7 @@ class TestRobotsPlay : public QObject {
       auto match = SimulatedMatch::create(scenario, options).value();
       std::vector<MatchEvent> events;
       for (int i = 0; i < 120 * 60 && match.simulation().state().clockRunning; ++i) match.tick();
-      match.takeEvents(events);
+      match.drainEvents(events);
       for (const MatchEvent& event : events) {
         if (event.kind != MatchEventKind::Goal) continue;
         ++goals;
@@ -267,7 +267,7 @@ class TestRobotsPlay : public QObject {
     QVERIFY(touching < 0.05);
   }
 
-  // Whoever is in the team: supporters share no place, one stands on each side.
+  // In every team, supporters take different places, one on each side.
   void supportersTakeAPlaceEach_data() {
     QTest::addColumn<QStringList>("team");
     QTest::newRow("no striker") << QStringList{"keeper", "supporter", "supporter", "idle"};
@@ -303,7 +303,7 @@ class TestRobotsPlay : public QObject {
         for (std::size_t b = 0; b < now.robots.size(); ++b) {
           if (b == a) continue;
           const double apart = distance(at, now.robots[b].pose.position);
-          // Who stands idle may stand next to a place, but nobody stands against it.
+          // An idle robot may stand near a place, but not against the robot there.
           const double least = team[static_cast<int>(b)] == "supporter" ? 0.5 : 0.33;
           QVERIFY2(apart > least, qPrintable(QString("seed %1: %2 and %3 are %4 m apart")
                                                  .arg(seed)

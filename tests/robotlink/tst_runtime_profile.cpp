@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who runs for a robot: profiles as files, as choices in scenarios, and in matches that are played.
+// Which processes a robot has: profiles as files, as choices in scenarios, and in matches.
 #include <QDir>
 #include <QTemporaryDir>
 #include <QtTest>
@@ -7,8 +7,9 @@
 #include <csignal>
 #include <set>
 
+#include <base/file_target.h>
 #include <resources/resources.h>
-#include <robotlink/advisor/reference_processes.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -53,8 +54,7 @@ class TestRuntimeProfile : public QObject {
   }
 
   void theBuiltInOnes() {
-    QCOMPARE(builtInRuntimes(), (std::vector<std::string>{"reference", "own", "published-tree"}));
-    for (const std::string& name : builtInRuntimes()) {
+    for (const std::string name : {"reference", "own", "published-tree"}) {
       const auto profile = loadRuntime({name, {}, {}});
       QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
       QCOMPARE(profile->name, name);
@@ -91,7 +91,7 @@ class TestRuntimeProfile : public QObject {
     QCOMPARE(process.responseTimeout, 2.0);
     QVERIFY(process.restart.policy == RestartPolicy::OnFailure);
     QCOMPARE(process.restart.giveUpAfter, 5);
-    QCOMPARE(process.restart.longestWait.count(), 3.0);
+    QCOMPARE(process.restart.maxWait.count(), 3.0);
     QCOMPARE(process.stopSignal, SIGINT);
     QVERIFY(process.watchFile && profile->hasOwn());
     QVERIFY(process.clock == ProfileProcess::Clock::Real);
@@ -187,6 +187,13 @@ class TestRuntimeProfile : public QObject {
              "owm");
     QVERIFY(!loadRuntime(choice("published-tree:flder=/x")));
     QVERIFY(!loadRuntime(choice("/no/such/file.json")));
+    const QTemporaryDir dir;
+    const std::string program = dir.filePath("chase.py").toStdString();
+    QVERIFY(writeFile(program, "print()", IfExists::Refuse).has_value());
+    QCOMPARE(loadRuntime(choice(program.c_str())).error().text(),
+             program + ": is not a runtime profile; if it is a program, write program=" + program);
+    QCOMPARE(runtimeChoiceFromText("program:chase.py").error().text(),
+             std::string("write program=chase.py"));
   }
 
   void scenariosChooseTheRuntime() {
@@ -322,7 +329,7 @@ class TestRuntimeProfile : public QObject {
       if (i == 60 * 9) {
         const sim::RefereeCall call{.kind = sim::CallKind::SetPlay,
                                     .team = 1,
-                                    .setPlay = sim::SetPlay::ThrowIn,
+                                    .setPlay = SetPlay::ThrowIn,
                                     .place = Point{0.0, 3.0}};
         QVERIFY(inside.simulation().call(call) && match.simulation().call(call));
       }

@@ -90,13 +90,13 @@ class TestScenario : public QObject {
                   "belief": {"x": 1, "y": 0, "heading": 180, "sigma": 0.1}}]})");
     QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
     const sim::GameStart& game = *scenario->game;
-    QCOMPARE(game.state, sim::PlayState::Playing);
+    QCOMPARE(game.state, PlayState::Playing);
     QCOMPARE(game.clock, std::optional<double>(60.0));
     QVERIFY(game.kickOff && !game.kickOff->team);
     QCOMPARE(game.teams.at(TeamColor::Blue).score, 2);
     QCOMPARE((*game.teams.at(TeamColor::Blue).byHalf)[1], 1);
-    QCOMPARE(game.setPlay->kind, sim::SetPlay::GoalKick);
-    QCOMPARE(game.robots.at(RobotId{1}).penalty, sim::PenaltyKind::SentOff);
+    QCOMPARE(game.setPlay->kind, SetPlay::GoalKick);
+    QCOMPARE(game.robots.at(RobotId{1}).penalty, PenaltyKind::SentOff);
     QCOMPARE(game.robots.at(RobotId{2}).goalkeeper, std::optional<bool>(true));
     QCOMPARE(scenario->robots[1].belief->sigma, 0.1);
     const auto again = read(scenarioToJson(*scenario));
@@ -209,6 +209,21 @@ class TestScenario : public QObject {
     QVERIFY(*read(scenarioToJson(*s)) == *s);
   }
 
+  // As many writes as docs/scenarios.md allows, as a program would print them.
+  void asManyWritesAsAllowedAreRead() {
+    std::string text = "{\n  \"version\": 1,\n  \"writes\": [";
+    constexpr int count = 100'000;
+    for (int i = 0; i < count; ++i) {
+      text += (i > 0 ? ",\n    {" : "\n    {") + std::string("\n      \"time\": ") +
+              std::to_string(0.01 * i) +
+              ",\n      \"variable\": \"LOCALIZATION_X\",\n      \"value\": " +
+              std::to_string(1000 + i) + "\n    }";
+    }
+    const auto scenario = read(text + "\n  ]\n}\n");
+    QVERIFY2(scenario, scenario ? "" : scenario.error().text().c_str());
+    QCOMPARE(scenario->writes.size(), std::size_t{count});
+  }
+
   void complaintsNameFileLineAndKey_data() {
     QTest::addColumn<QString>("text");
     QTest::addColumn<QString>("error");
@@ -223,6 +238,8 @@ class TestScenario : public QObject {
         "{\"version\": 1, \"teams\": [{\"colour\": \"red\"},\n{\"colour\": \"red\"}]}",
         "my.json:2: teams[1].colour: is also used by the other team");
     row("not an object", "[1]", "my.json:1: must be an object in braces");
+    row("duration beside stop", "{\"version\": 1,\n \"duration\": 60}",
+        "my.json:2: duration: stands in \"stop\": write \"stop\": {\"duration\": 60}");
     row("unknown key", "{\"version\": 1,\n \"sed\": 3}",
         "my.json:2: sed: unknown key; did you mean \"seed\"?");
     row("unknown nested key", robot("\"behavior\": \"naive\""),
@@ -263,7 +280,7 @@ class TestScenario : public QObject {
     row("share above 1", "{\"version\":1,\"noise\":{\"missed_detection\":1.1}}",
         "my.json:1: noise.missed_detection: must lie between 0 and 1");
     row("unknown physics", "{\"version\":1,\"physics\":\"rigid\"}",
-        "my.json:1: physics: there is no physics model \"rigid\"; known are rigid-body, published");
+        "my.json:1: physics: there is no physics model \"rigid\"; did you mean \"rigid-body\"?");
     row("tick rate", "{\"version\":1,\"tick_rate\":0}",
         "my.json:1: tick_rate: must lie between 1 and 10000 ticks per second");
     row("negative seed", "{\"version\":1,\"seed\":-1}",
@@ -277,8 +294,8 @@ class TestScenario : public QObject {
     row("field that cannot be played on", "{\"version\":1,\n\"field\":{\"goal_width\":8}}",
         "my.json:2: field: This field cannot be played on: the goal is wider than the field.");
     row("deep", std::string(100, '['), "my.json:1: nested deeper than 64 levels");
-    row("large", std::string(1024 * 1024 + 1, ' '),
-        "my.json:1: larger than 1 MiB, the most that is read");
+    row("large", std::string(32 * 1024 * 1024 + 1, ' '),
+        "my.json:1: larger than 32 MiB, the most that is read");
     row("stop", "{\"version\":1,\"stop\":{\"duration\":0}}",
         "my.json:1: stop.duration: must lie between 0.001 and 1000000 seconds");
   }

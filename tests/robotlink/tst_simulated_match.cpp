@@ -240,13 +240,13 @@ class TestSimulatedMatch : public QObject {
     QFETCH(QString, rules);
     SimulatedMatch match = make(shortMatch(rules));
     std::mt19937 random(7);
-    std::set<sim::PlayState> states;
+    std::set<PlayState> states;
     int seen = 0;
     for (int i = 0; i < 60 * 900 && !match.finished(); ++i) {
       match.tick();
       if (random() % 80 != 0) continue;
       ++seen;
-      const sim::GameState& game = *match.simulation().state().game;
+      const Game& game = *match.simulation().state().game;
       states.insert(game.state);
       const auto text = scenarioToJson(match.toScenario());
       const auto read = scenarioFromJson(text, "moment");
@@ -259,8 +259,12 @@ class TestSimulatedMatch : public QObject {
       QVERIFY(again.setReferee(read->settings.referee));
       const auto begun = again.startGame(*read->game);
       QVERIFY2(begun, begun ? "" : begun.error().text().c_str());
-      sim::GameState back = *again.state().game;
-      back.watches = game.watches;  // what a referee remembers of each robot is not kept
+      const Game& back = *again.state().game;
+      // What a referee remembers of each robot is not kept.
+      const sim::RefereeMemory& memory = match.simulation().state().refereeMemory;
+      sim::RefereeMemory kept = again.state().refereeMemory;
+      kept.watches = memory.watches;
+      QVERIFY2(kept == memory, text.c_str());
       QVERIFY2(back.teams == game.teams, text.c_str());
       QVERIFY2(back.restart == game.restart, text.c_str());
       QVERIFY2(back == game, text.c_str());
@@ -275,23 +279,23 @@ class TestSimulatedMatch : public QObject {
     Scenario scenario = shortMatch(rules);
     scenario.settings.referee->halfTime = 600;
     SimulatedMatch match = make(scenario);
-    std::set<sim::PlayState> states;
+    std::set<PlayState> states;
     bool inSetPlay = false;
     for (int i = 0; i < 60 * 900 && (states.size() < 4 || !inSetPlay); ++i) {
       match.tick();
       if (match.simulation().state().tick % 30 != 0)
         continue;  // robots have just received a packet
-      const sim::GameState& before = *match.simulation().state().game;
+      const Game& before = *match.simulation().state().game;
       const bool setPlay = before.restart.isAnnounced();
       if (!(setPlay && !inSetPlay) && states.contains(before.state)) continue;
       states.insert(before.state);
       inSetPlay = inSetPlay || setPlay;
-      const sim::PlayState state = before.state;
+      const PlayState state = before.state;
       const int clock = before.clock, countdown = before.countdown.ticks;
       const auto saved = scenarioFromJson(scenarioToJson(match.toScenario()), "moment");
       QVERIFY2(saved, saved ? "" : saved.error().text().c_str());
       SimulatedMatch goesOn = make(*saved);
-      const sim::GameState& now = *goesOn.simulation().state().game;
+      const Game& now = *goesOn.simulation().state().game;
       QCOMPARE(now.state, state);
       QCOMPARE(now.clock, clock);
       QCOMPARE(now.countdown.ticks, countdown);
@@ -324,7 +328,7 @@ class TestSimulatedMatch : public QObject {
     const float sure = match.blackboard(RobotId{1})->read(match.variables().localizationBelief);
     for (int i = 0; i < 30; ++i) goesOn.tick();
     const float then = goesOn.blackboard(RobotId{1})->read(goesOn.variables().localizationBelief);
-    // Who has to find out begins with metres.
+    // A robot that has to localize itself begins with an error of metres.
     QVERIFY2(then < 3 * sure + 30, qPrintable(QString("%1 cm, then %2").arg(sure).arg(then)));
   }
 

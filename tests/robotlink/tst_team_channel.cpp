@@ -2,8 +2,8 @@
 // Team messages: the two channels, and the team process between two blackboards.
 #include <QtTest>
 
-#include <robotlink/advisor/reference_processes.h>
 #include <robotlink/blackboard/robot_variables.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/team_channel.h>
 
 namespace tst_team_channel {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include <robotlink/advisor/reference_processes.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/cognition/soccer_player.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/published_frame.h>
@@ -318,9 +318,9 @@ class TestTeamPlay : public QObject {
     QTest::addColumn<int>("setPlay");
     QTest::addColumn<Point>("place");
     const double l = kidField().halfLength(), w = kidField().halfWidth();
-    QTest::newRow("goal kick") << static_cast<int>(sim::SetPlay::GoalKick) << Point{0.0, w};
-    QTest::newRow("corner kick") << static_cast<int>(sim::SetPlay::CornerKick) << Point{l, w};
-    QTest::newRow("penalty kick") << static_cast<int>(sim::SetPlay::PenaltyKick)
+    QTest::newRow("goal kick") << static_cast<int>(SetPlay::GoalKick) << Point{0.0, w};
+    QTest::newRow("corner kick") << static_cast<int>(SetPlay::CornerKick) << Point{l, w};
+    QTest::newRow("penalty kick") << static_cast<int>(SetPlay::PenaltyKick)
                                   << Point{l - kidField().penaltyMarkDistance, 0.0};
   }
   void theTakerGoesToTheBall() {

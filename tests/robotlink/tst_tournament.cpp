@@ -80,13 +80,14 @@ class TestTournament : public QObject {
  private slots:
   void sidesAreSwappedWithTheSameSeed();
   void theTableAddsUp();
+  void aCoinDecides();
   void theIntervalIsThatOfPairs();
   void aFolderDoesNotShowHowItWasFilled();
   void wrongMatchesFail();
   void madeByAProgram();
   void againstVersion08();
   void theAdvisorsProof();
-  void teamsThinkAhead();
+  void teamsHaveAdvisors();
   void wrongFilesAreExplained_data();
   void wrongFilesAreExplained();
 };
@@ -157,6 +158,27 @@ void TestTournament::theTableAddsUp() {
   QCOMPARE(summary.assertions[1].condition, std::string("stands against third"));
   QCOMPARE(summary.assertions[1].values, std::string("mean(goals) = 0"));
   QVERIFY(!summary.assertions[1].holds && !summary.holds());
+}
+
+/// Of a shoot-out: the other team has lost, and the table says how it was won.
+void TestTournament::aCoinDecides() {
+  const Experiment e = experimentFrom(shortTournament);
+  ResultTable results(e);
+  RunResult first = ended(e, 1, 2, 2), second = ended(e, 3, 1, 1);
+  first.match.teams[0].wonToss = true;   // walks plays blue
+  second.match.teams[0].wonToss = true;  // stands plays blue
+  results.add(e, first);
+  results.add(e, ended(e, 2, 1, 1));
+  results.add(e, second);
+  const TournamentTable table = tableOf(e, results);
+  for (const auto& [name, totals] : table.teams) {
+    QCOMPARE(totals.won, std::size_t{1});
+    QCOMPARE(totals.wonByCoin, std::size_t{1});
+    QCOMPARE(totals.drawn, std::size_t{1});
+    QCOMPARE(totals.lost, std::size_t{1});
+    QCOMPARE(totals.difference, 0.0);
+  }
+  QVERIFY(tableCsv(table).find("points,won_by_coin\n") != std::string::npos);
 }
 
 /// The two matches of a seed differ by the sides alone: drawn together their difference has no
@@ -270,21 +292,19 @@ void TestTournament::againstVersion08() {
   QVERIFY(programs->hasOwn());
 }
 
-/// The proof of the advisor, and opponents that it does not assume: with it and without.
+/// The proof of the advisor: a keeper that has learned, and one without.
 void TestTournament::theAdvisorsProof() {
-  const std::string folder = PITCHBOARD_SOURCE_DIR "/tests/data/teams/";
-  for (const char* name : {"advisor", "advisor-slower", "advisor-kicks", "advisor-dribbles"}) {
-    const auto e = loadExperiment(folder + name + ".json");
-    QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
-    QCOMPARE(e->allRuns(), std::size_t{std::string_view(name) == "advisor" ? 400U : 200U});
-    std::size_t advised = 0;
-    for (const Condition& condition : e->conditions) advised += condition.scenario.advisors.size();
-    QCOMPARE(advised, std::size_t{2});  // in both colours
-  }
+  const auto e =
+      loadExperiment(PITCHBOARD_SOURCE_DIR "/tests/data/teams/advisor-learns-striker.json");
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  QCOMPARE(e->allRuns(), std::size_t{800});
+  std::size_t advised = 0;
+  for (const Condition& condition : e->conditions) advised += condition.scenario.advisors.size();
+  QCOMPARE(advised, std::size_t{2});  // in both colours
 }
 
 /// As the file or the command line says, whichever colour they play in; the folder keeps it.
-void TestTournament::teamsThinkAhead() {
+void TestTournament::teamsHaveAdvisors() {
   const auto advisedIn = [](const Experiment& e, std::size_t condition) {
     std::vector<TeamColor> out;
     for (const auto& [colour, options] : e.conditions[condition].scenario.advisors) {
@@ -303,10 +323,11 @@ void TestTournament::teamsThinkAhead() {
   const auto kept = experimentFromJson(given.text, "kept").value();
   QCOMPARE(advisedIn(kept, 0), Colours{TeamColor::Red});
   std::string file = shortTournament;
-  file.insert(file.find("\"number\": 12"), "\"advisor\": {\"rollouts\": 30}, ");
+  file.insert(file.find("\"number\": 12"), "\"advisor\": {\"memory\": \"seen.json\"}, ");
   const auto read = experimentFromJson(file, "two").value();
   QCOMPARE(advisedIn(read, 0), Colours{TeamColor::Blue});
-  QCOMPARE(read.conditions[1].scenario.advisors.at(TeamColor::Red).rollouts, 30);
+  QCOMPARE(read.conditions[1].scenario.advisors.at(TeamColor::Red).memory,
+           std::string("seen.json"));
   changes.advised = {"sits"};
   const auto wrong = experimentFromJson(shortTournament, "two", {}, changes);
   QVERIFY(!wrong && wrong.error().text().find("sits") != std::string::npos);

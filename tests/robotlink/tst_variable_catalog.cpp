@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <QFile>
 #include <QRegularExpression>
+#include <QTemporaryDir>
 #include <QtTest>
 #include <random>
 
+#include <base/file_target.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <simcore/world/action_codes.h>
@@ -55,11 +57,25 @@ QString unitOrCodes(const telemetry::ColumnInfo& column) {
   return codes.isEmpty() ? QString::fromStdString(column.unit) : codes.join(", ");
 }
 
+// "decision; planning while DECISION_TARGET"
+QString writersOf(const std::string& name) {
+  const VariableWriters writers = VariableMeanings::published().writers(name);
+  QString text = QString::fromStdString(writers.writer);
+  if (!writers.alsoBy.empty()) {
+    text += "; " + QString::fromStdString(writers.alsoBy) + " while " +
+            QString::fromStdString(writers.alsoWhile);
+  }
+  if (!writers.clearedBy.empty()) {
+    text += "; cleared by " + QString::fromStdString(writers.clearedBy);
+  }
+  return text;
+}
+
 // A row for each variable; those that are numbered through share one.
 QString variablesTable(const VariableCatalog& catalog) {
   const VariableMeanings& meanings = VariableMeanings::published();
   struct Row {
-    QString first, last, type, unit, text;
+    QString first, last, type, writer, unit, text;
     int from, to, step;
   };
   std::vector<Row> rows;
@@ -71,6 +87,7 @@ QString variablesTable(const VariableCatalog& catalog) {
     const std::string_view reported = meanings.description(v.name);
     const QString text = QString::fromUtf8(reported.data(), qsizetype(reported.size()));
     const QString type = v.type == VariableType::Int ? "int" : "float";
+    const QString writer = writersOf(v.name);
     const auto [skeleton, number] = numberedName(name);
     // Named once more for clang before version 16: it captures no names of a structured binding.
     const auto series =
@@ -78,17 +95,19 @@ QString variablesTable(const VariableCatalog& catalog) {
           const auto [otherSkeleton, otherNumber] = numberedName(row.last);
           return number > 0 && row.type == type && otherSkeleton == skeleton &&
                  otherNumber + 1 == number && row.unit == unit && row.text == text &&
-                 (row.step == 0 || row.to + row.step == v.index);
+                 row.writer == writer && (row.step == 0 || row.to + row.step == v.index);
         });
     if (series == rows.end()) {
-      rows.push_back({name, name, type, unit, text, v.index, v.index, 0});
+      rows.push_back({name, name, type, writer, unit, text, v.index, v.index, 0});
     } else {
       series->step = v.index - series->to;
       series->last = name;
       series->to = v.index;
     }
   }
-  QString table = "| variable | type | index | unit or codes | meaning |\n|---|---|---|---|---|\n";
+  QString table =
+      "| variable | type | index | written by | unit or codes | meaning |\n"
+      "|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     QString names = "`" + row.first + "`", places = QString::number(row.from);
     if (row.first != row.last) {
@@ -96,8 +115,8 @@ QString variablesTable(const VariableCatalog& catalog) {
       places += QString(" to %1").arg(row.to);
       if (row.step > 1) places += QString(", every %1").arg(row.step == 2 ? "2nd" : "other");
     }
-    table +=
-        QString("| %1 | %2 | %3 | %4 | %5 |\n").arg(names, row.type, places, row.unit, row.text);
+    table += QString("| %1 | %2 | %3 | %4 | %5 | %6 |\n")
+                 .arg(names, row.type, places, row.writer, row.unit, row.text);
   }
   return table;
 }
@@ -144,6 +163,20 @@ class TestVariableCatalog : public QObject {
     QCOMPARE(QByteArray::fromStdString(catalog.toJson()).trimmed(),
              QByteArray::fromStdString(file).trimmed());
     QVERIFY(*VariableCatalog::fromJson(catalog.toJson(), "again") == catalog);
+  }
+  // A map for a larger segment (docs/live.md) keeps its layout when it is written again.
+  void aLayoutIsKept() {
+    const QTemporaryDir folder;
+    const std::string path = folder.filePath("large.json").toStdString();
+    const SegmentLayout large{4096, 600};
+    QVERIFY(writeFile(path, VariableCatalog::published().toJson(large), IfExists::Refuse));
+    SegmentLayout read;
+    const auto catalog = VariableCatalog::fromFile(path, read);
+    QVERIFY2(catalog, catalog ? "" : catalog.error().text().c_str());
+    QVERIFY(*catalog == VariableCatalog::published());
+    QCOMPARE(read.bytes, large.bytes);
+    QCOMPARE(read.floatOffset, large.floatOffset);
+    QVERIFY(!VariableCatalog::fromFile(path));  // it cannot be shared with a robot's processes
   }
 
   void teamsFiles_data() {

@@ -133,7 +133,7 @@ class TestWorldLines : public QObject {
     row("no such physics", R"({"do":"create","physics":"chaos"})", "chaos");
     row("bytes that are no text", "{\"do\":\"\xff\xfe\"}", "");
     QTest::newRow("deep") << QByteArray(2000, '[') << QString();
-    QTest::newRow("long") << QByteArray(static_cast<qsizetype>(WorldLines::longestLine) + 2, ' ')
+    QTest::newRow("long") << QByteArray(static_cast<qsizetype>(WorldLines::maxLineLength) + 2, ' ')
                           << QStringLiteral("larger");
   }
   void aBadLineGetsAnErrorAndTheNextOneIsServed() {
@@ -179,7 +179,7 @@ class TestWorldLines : public QObject {
   }
 
   void theProgramServesPastBadLines() {
-    const QByteArray tooLong(static_cast<qsizetype>(WorldLines::longestLine) + 5, 'x');
+    const QByteArray tooLong(static_cast<qsizetype>(WorldLines::maxLineLength) + 5, 'x');
     const ProgramRun run =
         runProgram("pitchboard-cli", {"simulate", "--stdio", "--scenario", "match-3v3"},
                    "nonsense\n\n" + tooLong + "\n{\"do\":\"create\"}");

@@ -21,7 +21,7 @@ namespace {
 struct Numbers {
   std::set<const double*> found;
   void value(const double& number) { found.insert(&number); }
-  void label(const double& number) { found.insert(&number); }
+  void label(const double& number, std::uint64_t /*form*/) { found.insert(&number); }
   template <class Other>
   void value(const Other&) {}
 };

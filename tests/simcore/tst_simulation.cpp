@@ -5,6 +5,7 @@
 
 #include <base/angles.h>
 #include <simcore/simulation/simulation.h>
+#include <simcore/world/field_lines.h>
 
 namespace tst_simulation {
 
@@ -92,6 +93,19 @@ class TestSimulation : public QObject {
       QVERIFY2(valid.has_value(), valid ? "" : valid.error().text().c_str());
       QCOMPARE(fieldByName(field.name).value(), field);
     }
+    // The drawings of the league of 2026 (HSL-Rules, figs/FieldGenerator).
+    const FieldSpec large = fieldByName("large-2026").value();
+    QCOMPARE(large.goalAreaWidth, 5.0);
+    QCOMPARE(large.lineWidth, 0.12);
+    QCOMPARE(large.markDiameter, 0.15);
+    QCOMPARE(large.cornerArcRadius, 1.0);
+    QCOMPARE(fieldByName("middle-2026")->cornerArcRadius, 0.5);
+    QCOMPARE(fieldByName("small-2026")->cornerArcRadius, 0.0);
+    // Lengths are measured to the outer edges of lines.
+    const FieldLines lines = fieldLines(large, large.lineWidth);
+    QCOMPARE(lines.arcRadius, 0.94);
+    QCOMPARE(lines.markRadius, 0.075);
+    QCOMPARE(fieldLines(fieldByName("kid-2020").value(), 0.05).markRadius, 0.0);
     QVERIFY(!fieldByName("moon").has_value());
     QVERIFY(fieldByName("moon").error().message.find("kid-2020") != std::string::npos);
   }

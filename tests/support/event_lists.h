@@ -16,7 +16,7 @@
 
 namespace event_lists {
 
-inline QString line(double time, const QString& kind, int robot, const QString& side) {
+inline QString line(double time, const QString& kind, std::uint32_t robot, const QString& side) {
   return QStringLiteral("%1 %2 %3 %4").arg(time, 0, 'f', 6).arg(kind).arg(robot).arg(side);
 }
 
@@ -26,7 +26,7 @@ inline QStringList linesOf(const std::vector<pitchboard::link::MatchEvent>& even
   for (const auto& event : events) {
     const std::string kind(pitchboard::link::info(event.kind).name);
     const std::string side(event.side ? pitchboard::link::sideName(*event.side) : "");
-    lines << line(event.time, QString::fromStdString(kind), event.robot.number,
+    lines << line(event.time, QString::fromStdString(kind), event.robot.value,
                   QString::fromStdString(side));
   }
   return lines;
@@ -44,8 +44,8 @@ inline QStringList inspected(const QString& path) {
   const auto json = QJsonDocument::fromJson(cli({"inspect", path, "--json", "--events"})).object();
   QStringList lines;
   for (const QJsonValue& value : json["events"].toArray()) {
-    lines << line(value["time"].toDouble(), value["kind"].toString(), value["robot"].toInt(),
-                  value["side"].toString());
+    lines << line(value["time"].toDouble(), value["kind"].toString(),
+                  static_cast<std::uint32_t>(value["uid"].toInteger()), value["side"].toString());
   }
   return lines;
 }

@@ -46,7 +46,7 @@ struct RefereeGame {
     rules.readyStillTime = 0.0;  // they stand from the beginning; READY lasts its time
     return rules;
   }
-  const sim::GameState& game() const { return *simulation->state().game; }
+  const Game& game() const { return *simulation->state().game; }
   double now() const {
     return static_cast<double>(simulation->state().tick) / simulation->state().settings.tickRate;
   }
@@ -72,7 +72,7 @@ struct RefereeGame {
     const sim::FieldSpec& field = simulation->state().settings.field;
     return sim::robotRadius(simulation->state(), 0) + field.ballRadius + 0.005;
   }
-  bool state(sim::PlayState state) { return call({.kind = sim::CallKind::State, .state = state}); }
+  bool state(PlayState state) { return call({.kind = sim::CallKind::State, .state = state}); }
   bool happened(sim::EventKind kind) const {
     return std::any_of(events.begin(), events.end(),
                        [kind](const sim::Event& event) { return event.kind == kind; });

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Keys of robots as tests write them.
+// Keys and uids of robots as tests write them.
+
+#include <cstdint>
 
 #include <base/robot_key.h>
 
@@ -17,6 +19,17 @@ constexpr RobotKey red(int number) {
 /// A live robot whose team nobody knows.
 constexpr RobotKey receivedAs(int number, int sender = 0) {
   return {0, number, sender};
+}
+
+/// The robot with this slot of a simulated match.
+constexpr RobotUid inSlot(int slot) {
+  return {static_cast<std::uint32_t>(slot)};
+}
+/// The robot of a frame that has this key now; none: RobotUid{}.
+template <class Frame>
+RobotUid uidIn(const Frame& frame, const RobotKey& key) {
+  const auto* robot = frame.robot(key);
+  return robot != nullptr ? robot->uid : RobotUid{};
 }
 
 }  // namespace pitchboard

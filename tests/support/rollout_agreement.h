@@ -14,11 +14,11 @@
 
 #include <base/angles.h>
 #include <base/random.h>
-#include <robotlink/capi/rollout_rows.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/models/noise_presets.h>
 #include <robotlink/models/robot_models.h>
+#include <robotlink/rollout/rollout_start.h>
 #include <simcore/world/published_frame.h>
 
 #include "match_moment.h"
@@ -194,7 +194,7 @@ inline Endings playWhole(link::SimulatedMatch& match, const Situation& situation
     }
     if (errors != nullptr) addErrors(match, *errors);
     endings.add(difference, onTheLine(field, ball), time);
-    match.takeEvents(events);
+    match.drainEvents(events);
     events.clear();
   }
   return endings;

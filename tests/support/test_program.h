@@ -11,6 +11,10 @@
 
 #include "patience.h"
 
+#ifdef QT_GUI_LIB
+#include <QCursor>
+#include <QGuiApplication>
+#endif
 #ifdef QT_WIDGETS_LIB
 #include <QApplication>
 #endif
@@ -24,6 +28,14 @@ template <class Application, class Test>
 int runTest(int argc, char** argv) {
   Application application(argc, argv);
   application.setAttribute(Qt::AA_Use96Dpi, true);
+#ifdef QT_GUI_LIB
+  // Since Qt 6.8 a menu closes at a click before which the pointer was nowhere. A real pointer
+  // always is somewhere.
+  if constexpr (std::is_base_of_v<QGuiApplication, Application>) {
+    QCursor::setPos(1, 1);
+    QCoreApplication::processEvents();
+  }
+#endif
   Test test;
   return QTest::qExec(&test, argc, argv);
 }

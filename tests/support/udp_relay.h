@@ -29,6 +29,8 @@ class UdpRelay {
         m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
   std::uint16_t port() const { return m_in.port(); }
+  /// How many datagrams have come in, whether they were passed on or not.
+  int received() const { return m_received; }
   /// Nothing passes.
   void fail(bool fails) { m_fails = fails; }
   /// Everything passes at once and in order.
@@ -47,6 +49,7 @@ class UdpRelay {
       pollfd ready{m_in.descriptor(), POLLIN, 0};
       poll(&ready, 1, held.empty() ? 20 : 1);
       for (std::string text = m_in.take(); !text.empty(); text = m_in.take()) {
+        ++m_received;
         if (m_fails) continue;
         shiftClock(text);
         const auto now = Clock::now();
@@ -81,6 +84,7 @@ class UdpRelay {
   const std::uint16_t m_to;
   const Network m_network;
   TestSocket m_in, m_out;
+  std::atomic<int> m_received = 0;
   std::atomic<bool> m_fails = false, m_heals = false;
   std::jthread m_thread;  // last: it uses all of the above
 };

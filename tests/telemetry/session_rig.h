@@ -4,14 +4,20 @@
 // Small sessions for tests: two robots and the match, values that are easy to tell apart.
 
 #include <QTemporaryDir>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <limits>
 
+#include <telemetry/mcap/mcap_cursor.h>
+#include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_writer.h>
+
+#include "../support/group_facts.h"
 
 namespace pitchboard::telemetry::rig {
 
@@ -34,7 +40,7 @@ inline GroupInfo robotGroup(const std::string& name, int number) {
             {{"VISION_WORKING", 2.0}, {"VISION_BALL_DIST", 0.5}}},
            {"TRUTH_X", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}},
            {"TRUTH_YAW", ColumnType::Float64, "°", "Truth", ColumnKind::Number, {}}},
-          {{"robot", std::to_string(number)}, {"team", "blue"}, {"ünïcode", "ä\n\"b\""}}};
+          facts({{"robot", std::to_string(number)}, {"team", "blue"}, {"name", "ä\n\"b\""}})};
 }
 
 inline GroupInfo matchGroup() {
@@ -134,6 +140,48 @@ inline std::vector<Row> rowsOf(const SessionReader& reader, TimeRange range) {
     return true;
   });
   return rows;
+}
+
+/// Writes the messages of a file in another order: `order` sorts them as it likes.
+inline void rewrite(
+    const std::string& from, const std::string& to,
+    const std::function<void(std::vector<std::pair<McapMessage, std::string>>&)>& order) {
+  const auto reader = McapReader::open(from);
+  const McapContents& contents = reader->contents();
+  auto writer = McapWriter::create(to, {contents.profile, contents.library, 3, false});
+  for (const McapMetadataInfo& one : contents.metadata) {
+    (void)writer->metadata(one.name, *reader->readMetadata(one));
+  }
+  std::vector<std::pair<McapMessage, std::string>> messages;
+  for (const McapChunkInfo& chunk : contents.chunks) {
+    std::string body;
+    if (!reader->readChunk(chunk, body)) qFatal("a damaged chunk");
+    McapCursor cursor(body);
+    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
+      if (kind != McapCursor::Kind::Message) continue;
+      messages.emplace_back(cursor.message(), std::string(cursor.message().data));
+    }
+  }
+  order(messages);
+  McapChunk chunk;
+  for (const auto& [id, schema] : contents.schemas) chunk.add(schema);
+  for (const auto& [id, channel] : contents.channels) chunk.add(channel);
+  for (auto& [message, data] : messages) {
+    message.data = data;
+    chunk.add(message);
+    if (chunk.bytes() < 10'000) continue;
+    (void)writer->writeChunk(chunk);
+    chunk.clear();
+  }
+  (void)writer->writeChunk(chunk);
+  if (!writer->finish()) qFatal("not written");
+}
+using Messages = std::vector<std::pair<McapMessage, std::string>>;
+inline void topicByTopic(Messages& messages) {
+  std::ranges::stable_sort(messages, {}, [](const auto& one) { return one.first.channel; });
+}
+inline void backwards(Messages& messages) {
+  std::ranges::reverse(messages);
 }
 
 inline constexpr TimeRange everything{-1e9, 1e9};

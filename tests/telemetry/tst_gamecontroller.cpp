@@ -7,12 +7,16 @@
 #include <QJsonObject>
 #include <QtTest>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <random>
+
+#include <telemetry/wire/referee_json.h>
 
 #include "../support/recorded_packets.h"
 
 namespace tst_gamecontroller {
 
+using namespace pitchboard;
 using namespace pitchboard::telemetry;
 
 namespace {
@@ -62,7 +66,8 @@ class TestGameController : public QObject {
     QCOMPARE(QString::fromLatin1(state.magic.data(), 4), expected["header"].toString());
     QCOMPARE(state.trueData(), packet.contains("RGTD"));
     QCOMPARE(state.firstHalf != 0, expected["firstHalf"].toBool());
-    QCOMPARE(QString::fromUtf8(stateName(state.state).data()), expected["stateName"].toString());
+    QCOMPARE(QString::fromUtf8(labelOf(playStateOf(state.state)).data()),
+             expected["stateName"].toString());
     compare("", expected, "version", state.version);
     compare("", expected, "size", state.size);
     compare("", expected, "packetNumber", state.packetNumber);
@@ -81,13 +86,9 @@ class TestGameController : public QObject {
     // The v7 packet that a controller of 2015 adds has no game type: no byte tells its recordings
     // from those of 2014. The value beside them is what the program knew.
     if (!packet.startsWith("v7compat")) compare("", expected, "gameType", state.gameType);
-    if (expected.contains("gameTypeName")) {
-      QCOMPARE(QString::fromUtf8(gameTypeName(*state.gameType).data()),
-               expected["gameTypeName"].toString());
-    }
-    if (expected.contains("secGameStateName")) {
-      QCOMPARE(QString::fromUtf8(secStateName(*state.secState).data()),
-               expected["secGameStateName"].toString());
+    for (const char* name : {"gameTypeName", "secGameStateName"}) {
+      if (!expected.contains(name)) continue;
+      QCOMPARE(QString::fromStdString(refereeJson(*result)[name]), expected[name].toString());
     }
     if (expected.contains("secGameStateInfoHex")) {
       QByteArray info;
@@ -193,28 +194,58 @@ class TestGameController : public QObject {
     RefereeState state;
     state.version = 12;
     state.size = 688;
-    RefereePlayer player;
-    player.penalty = 34;
-    QVERIFY(penaltyLabel(state, player) == "pickup or incapable");
-    player.penalty = 15;
-    QVERIFY(penaltyLabel(state, player) == "manual penalty");
-    player.red = 1;
-    QVERIFY(penaltyLabel(state, player) == "sent off");
-    player.penalty = 0;
-    QVERIFY(penaltyLabel(state, player).empty());
+    const auto penalty = [&state](int code, int red = 0) {
+      RefereeTeam& team = state.teams[0];
+      team.slotCount = 1;
+      team.allSlots[0].number = 1;
+      team.allSlots[0].penalty = code;
+      team.allSlots[0].red = red;
+      return labelOf(gameOf(state).teams[0].players[0].penalty);
+    };
+    QVERIFY(penalty(34) == "pickup or incapable");
+    QVERIFY(penalty(15) == "manual penalty");
+    QVERIFY(penalty(15, 1) == "sent off");
+    QVERIFY(penalty(0, 1).empty());
     QVERIFY(penaltyName(state, 77) == "UNKNOWN");
+    QVERIFY(penaltyOf(state, 77) == PenaltyKind::Unknown);
     state.version = 19;
     state.size = 198;
-    QVERIFY(isSubstitute(state, {1, 11, 0, {}, {}, {}, {}, {}, false}));
+    QVERIFY(penaltyOf(state, 11) == PenaltyKind::Substitute);
     state.version = 20;
     state.size = 158;
-    QVERIFY(!isSubstitute(state, {1, 11, 0, {}, {}, {}, {}, {}, false}));
-    QVERIFY(isSubstitute(state, {1, 13, 0, {}, {}, {}, {}, {}, false}));
-    QVERIFY(setPlayLabel(League::HumanoidSoccer, 5) == "goal kick");
-    QVERIFY(setPlayLabel(League::StandardPlatform, 1) == "goal kick");
-    QVERIFY(setPlayName(League::HumanoidSoccer, 6) == "corner");  // in JSON
-    QVERIFY(setPlayLabel(League::HumanoidSoccer, 6) == "corner kick");
-    QVERIFY(stateName(-1) == "UNKNOWN");
+    QVERIFY(penaltyOf(state, 11) == PenaltyKind::Cautioned);
+    QVERIFY(penaltyOf(state, 13) == PenaltyKind::Substitute);
+    state.league = League::HumanoidSoccer;
+    state.setPlay = 5;
+    QVERIFY(gameOf(state).setPlay() == SetPlay::GoalKick);
+    state.setPlay = 6;
+    QVERIFY(gameOf(state).setPlay() == SetPlay::CornerKick);
+    QVERIFY(refereeJson(state)["setPlayName"] == "corner");
+    state.league = League::StandardPlatform;
+    state.setPlay = 1;
+    QVERIFY(gameOf(state).setPlay() == SetPlay::GoalKick);
+    QVERIFY(labelOf(playStateOf(-1)) == "UNKNOWN");
+  }
+
+  // What a simulated game has is the same after it was sent, if the version can tell it.
+  void codesAreReadAsTheyAreWritten() {
+    RefereeState state;
+    state.version = 20;
+    state.size = 158;
+    state.league = League::HumanoidSoccer;
+    for (int i = 1; i <= static_cast<int>(lastOf(SetPlay{})); ++i) {
+      state.setPlay = setPlayCode(state, static_cast<SetPlay>(i));
+      QCOMPARE(static_cast<int>(gameOf(state).setPlay()), i);
+    }
+    for (const PenaltyKind kind : {PenaltyKind::Pushing, PenaltyKind::MotionInStop,
+                                   PenaltyKind::Cautioned, PenaltyKind::Substitute}) {
+      QVERIFY(penaltyOf(state, penaltyCode(state, kind)) == kind);
+    }
+    // Others by what comes next to them.
+    QVERIFY(simulated(penaltyOf(state, penaltyCode(state, PenaltyKind::Incapable))) ==
+            PenaltyKind::Incapable);
+    for (int i = 0; i < 10; ++i) QCOMPARE(colourCode(colourOf(i)), i);
+    QVERIFY(colourOf(10) == TeamColor::Unknown);
   }
 
   void survivesMutations() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who is who: two programs with one number, new addresses, new ports, late messages.
+// Which robot sends: two programs with one number, new addresses, new ports, late messages.
 
 #include <QtTest>
 
@@ -163,7 +163,7 @@ class TestSecondSenders : public QObject {
     for (int i = 1000; i < 3000; ++i) give(monitor, text(i), start, from(9));
     for (int i = 1; i <= 32; ++i) QCOMPARE(give(monitor, text(i), start), Verdict::Used);
     const TeamStatus team = monitor.status(start);
-    QCOMPARE(team.robots.size(), MonitorOptions::mostRobots(0));
+    QCOMPARE(team.robots.size(), MonitorOptions::maxRobots(0));
     QCOMPARE(team.refusedRobots, std::uint64_t(2000 - 32));
   }
 
@@ -185,7 +185,7 @@ class TestSecondSenders : public QObject {
     }
     const TeamStatus team = monitor.status(start);
     QCOMPARE(team.robots.size(), std::size_t(3 * 32 + 32));
-    QCOMPARE(team.robots.size(), options.mostRobots());
+    QCOMPARE(team.robots.size(), options.maxRobots());
     QCOMPARE(team.refusedRobots, std::uint64_t(200 - 32));
     // Two teams are left: the third one's robots have no team, and go when they fall silent.
     options.teams.pop_back();

@@ -3,9 +3,13 @@
 // blackboard can: constants, rare changes, noise, NaN, infinities, equal times, a source put back.
 
 #include <QtTest>
+#include <array>
 
+#include <telemetry/series/group_attributes.h>
+#include <telemetry/series/robot_names.h>
 #include <telemetry/series/series_store.h>
 
+#include "../support/group_facts.h"
 #include "series_rows.h"
 
 namespace tst_series_store {
@@ -102,6 +106,29 @@ class TestSeriesStore : public QObject {
   }
 
  private slots:
+  void theListenerIsToldOnceUntilItHasHeard() {
+    SeriesStore store;
+    int told = 0;
+    store.setListener([&told] { ++told; });
+    GroupInfo info;
+    info.name = "B1";
+    info.columns.emplace_back().name = "X";
+    const GroupId group = store.addGroup(info);
+    const std::array<double, 1> values{1.0};
+    const auto append = [&](double time) { store.append(group, {time, {}, values}); };
+    QCOMPARE(told, 0);
+    append(1.0);
+    append(2.0);
+    QCOMPARE(told, 1);
+    store.heard();
+    QCOMPARE(told, 1);
+    append(3.0);
+    QCOMPARE(told, 2);
+    store.heard();
+    append(std::nan(""));  // is refused
+    QCOMPARE(told, 2);
+  }
+
   void agreesWithThePlainOne_data() {
     QTest::addColumn<int>("rows");
     for (const int rows : {0, 1, 2, 63, 64, 65, 128, 500, 4095, 4096, 4097, 4160, 9000}) {
@@ -173,7 +200,6 @@ class TestSeriesStore : public QObject {
     row.words.push_back(0);
     row.values.push_back(0);
     store.append(id, viewOf(row));
-    QCOMPARE(store.refusedRows(), std::uint64_t{6});
     QCOMPARE(store.view(id)->rows(), std::size_t{1});
     QVERIFY(!store.view(id + 1));
   }
@@ -252,9 +278,11 @@ class TestSeriesStore : public QObject {
     QVERIFY(std::isnan(view->latest(seen)->value) == ((rows - 1) % 200 >= 100));
     QCOMPARE(view->statistics(seen, {0.0, 199.0}).samples, std::uint64_t{100});
     QVERIFY(std::isnan(view->at(static_cast<std::uint32_t>(info.columns.size()) - 1, 5.0)->value));
-    // Said otherwise, the rows so far are another group's.
+    // Described otherwise, the rows so far stay as they were understood.
     info.columns[seen].lost[0].value = 0;
-    QVERIFY(store.addGroup(info) != id);
+    QCOMPARE(store.addGroup(info), id);
+    QCOMPARE(store.view(id)->rows(), static_cast<std::size_t>(rows));
+    QCOMPARE(std::isnan(store.view(id)->at(seen, 150.0)->value), true);
   }
 
   void groups() {
@@ -266,53 +294,187 @@ class TestSeriesStore : public QObject {
     Source source(1);
     store.append(id, viewOf(source.at(1.0)));
     QCOMPARE(store.addGroup(info), id);
-    info.attributes["team"] = "blue";
+    info.robot.emplace().team = pitchboard::TeamColor::Blue;
     QCOMPARE(store.addGroup(info), id);
     QCOMPARE(store.view(id)->rows(), std::size_t{1});
-    QCOMPARE(store.view(id)->info().attributes.at("team"), std::string("blue"));
+    QCOMPARE(attributesOf(store.view(id)->info()).at("team"), std::string("blue"));
     QCOMPARE(*store.find("B1", "D_NOISE"), (SeriesId{id, 9}));
     QVERIFY(!store.find("B1", "NOT_THERE") && !store.find("B2", "NOISE"));
 
-    info.columns.pop_back();
-    const GroupId other = store.addGroup(info);
-    QVERIFY(other != id);
-    QCOMPARE(store.view(id)->rows(), std::size_t{0});
-    QCOMPARE(*store.findGroup("B1"), other);
-    QCOMPARE(store.view(other)->rows(), std::size_t{0});
-    QVERIFY(!store.range());
-    NaiveRow row = source.at(2.0);
-    row.values.pop_back();
-    store.append(other, viewOf(row));
-    QCOMPARE(*store.range(), (TimeRange{2.0, 2.0}));
     store.clear();
     QVERIFY(!store.range());
-    QCOMPARE(store.groups(), std::size_t{2});
-    QCOMPARE(*store.findGroup("B1"), other);
+    QCOMPARE(store.groups(), std::size_t{1});
+    QCOMPARE(*store.findGroup("B1"), id);
   }
 
-  void aRenamedGroupKeepsItsRows() {
+  /// Two kinds of rows of one robot, as of a match whose advisor is switched on and off: columns in
+  /// the middle come and go, one changes its type, and their order changes.
+  void columnsThatComeAndGoKeepThePast_data() {
+    QTest::addColumn<int>("rows");
+    // Staged rows, whole blocks, whole chunks.
+    for (const int rows : {10, 200, 9000}) QTest::addRow("%d rows", rows) << rows;
+  }
+
+  void columnsThatComeAndGoKeepThePast() {
+    QFETCH(int, rows);
+    const auto column = [](const char* name, ColumnType type) {
+      ColumnInfo info;
+      info.name = name;
+      info.type = type;
+      return info;
+    };
+    using enum ColumnType;
+    ColumnInfo seen = column("SEEN", Float32);
+    seen.lost = {{"LOST", 1.0}};
+    const GroupInfo plain{"B1",
+                          {column("ID", Int32), column("LOST", Int32), seen, column("X", Float64),
+                           column("Y", Float64)},
+                          {}};
+    const GroupInfo advised{"B1",
+                            {column("ADVICE", Int32), column("LOST", Float32), seen,
+                             column("Y", Float64), column("GAIN", Float64), column("X", Float64)},
+                            facts({{"behaviour", "advised"}})};
+    const auto word = [](float value) { return std::bit_cast<std::uint32_t>(value); };
     SeriesStore store;
-    GroupInfo info = group();
-    const GroupId id = store.addGroup(info);
+    double time = 0.0;
+    const auto put = [&](const GroupInfo& info) {
+      const GroupId id = store.addGroup(info);
+      const bool isAdvised = info == advised;
+      for (int i = 0; i < rows; ++i, time += 0.01) {
+        const auto number = static_cast<float>(time);
+        const bool isLost = i % 7 == 0;
+        if (isAdvised) {
+          const std::array words{1000000007U + static_cast<unsigned>(i), word(isLost ? 1.0F : 0.0F),
+                                 word(number)};
+          store.append(id, {time, words, std::array{2.0 * time, 3.0 * time, time}});
+        } else {
+          const std::array words{7U, isLost ? 1U : 0U, word(number)};
+          store.append(id, {time, words, std::array{time, 2.0 * time}});
+        }
+      }
+      return id;
+    };
+    const GroupId id = put(plain);
+    const double on = time;
+    QCOMPARE(put(advised), id);
+    const double off = time;
+    QCOMPARE(put(plain), id);
+    QCOMPARE(store.groups(), std::size_t{1});
+    const auto view = store.view(id);
+    QCOMPARE(view->rows(), static_cast<std::size_t>(3 * rows));
+    std::vector<std::string> names;
+    for (const ColumnInfo& one : view->info().columns) names.push_back(one.name);
+    QCOMPARE(names, (std::vector<std::string>{"ID", "LOST", "SEEN", "X", "Y", "ADVICE", "GAIN"}));
+    std::vector<Sample> samples;
+    const auto each = [&](const char* name, const auto& wanted) {
+      const auto found = store.find("B1", name);
+      QVERIFY2(found, name);
+      QVERIFY(view->samples(found->column, {-1.0, 1e9}, samples));
+      QCOMPARE(samples.size(), static_cast<std::size_t>(3 * rows));
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const double value = wanted(samples[i].time, static_cast<int>(i) % rows);
+        QVERIFY2(same(samples[i].value, value), qPrintable(QString("%1 at row %2: %3, wanted %4")
+                                                               .arg(name)
+                                                               .arg(i)
+                                                               .arg(samples[i].value)
+                                                               .arg(value)));
+      }
+    };
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const auto isOn = [&](double at) { return at >= on && at < off; };
+    each("X", [](double at, int) { return at; });
+    each("Y", [](double at, int) { return 2.0 * at; });
+    each("LOST", [](double, int i) { return i % 7 == 0 ? 1.0 : 0.0; });
+    each("SEEN", [](double at, int i) {
+      return i % 7 == 0 ? none : static_cast<double>(static_cast<float>(at));
+    });
+    each("ID", [&](double at, int) { return isOn(at) ? none : 7.0; });
+    each("ADVICE", [&](double at, int i) { return isOn(at) ? 1000000007.0 + i : none; });
+    each("GAIN", [&](double at, int) { return isOn(at) ? 3.0 * at : none; });
+    // Buckets and statistics read what was converted, too.
+    const auto advice = store.find("B1", "ADVICE")->column;
+    const SeriesStatistics all = view->statistics(advice, {-1.0, 1e9});
+    QCOMPARE(all.samples, static_cast<std::uint64_t>(rows));
+    QCOMPARE(all.max, 1000000007.0 + rows - 1);
+    std::array<SeriesBucket, 1> bucket;
+    view->buckets(advice, {0.0, on}, bucket);
+    QVERIFY(bucket[0].samples > 0 && std::isnan(bucket[0].max));
+    view->buckets(advice, {on, off}, bucket);
+    QCOMPARE(bucket[0].max, 1000000007.0 + rows - 1);
+  }
+
+  void groupsThatExchangeTheirNamesKeepTheirRows() {
+    SeriesStore store;
+    const auto groupOf = [](const char* id, const char* name) {
+      GroupInfo info = group();
+      info.id = id;
+      info.name = name;
+      return info;
+    };
+    const GroupId one = store.addGroup(groupOf("1", "B1")),
+                  other = store.addGroup(groupOf("2", "R1"));
     Source source(1);
-    store.append(id, viewOf(source.at(1.0)));
-    info.name = "R1";
+    store.append(one, viewOf(source.at(1.0)));
     const auto revision = store.groupsRevision();
-    QCOMPARE(store.renameGroup("B1", info), id);
+    store.describeGroups(std::array{groupOf("1", "R1"), groupOf("2", "B1")});
     QVERIFY(store.groupsRevision() > revision);
-    store.append(id, viewOf(source.at(2.0)));
-    QCOMPARE(store.view(id)->rows(), std::size_t{2});
-    QCOMPARE(store.findGroup("R1"), std::optional(id));
-    QVERIFY(!store.findGroup("B1"));
-    // A curve of its former name goes on, until another group has the name.
-    QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{id, 9}));
-    info.name = "B1";
-    const GroupId other = store.addGroup(info);
-    QVERIFY(other != id);
+    QCOMPARE(store.groupNames(), (std::vector<std::string>{"R1", "B1"}));
+    QCOMPARE(store.findGroup("R1"), std::optional(one));
     QCOMPARE(store.find("B1", "D_NOISE"), std::optional(SeriesId{other, 9}));
-    // Where there is a group of the name, that one goes on.
-    QCOMPARE(store.renameGroup("R1", info), other);
-    QCOMPARE(store.view(id)->rows(), std::size_t{2});
+    // The rows of a robot go to its group, however it is called.
+    QCOMPARE(store.addGroup(groupOf("1", "R1")), one);
+    store.append(one, viewOf(source.at(2.0)));
+    QCOMPARE(store.view(one)->rows(), std::size_t{2});
+    QCOMPARE(store.view(other)->rows(), std::size_t{0});
+    // Nobody else's past is found under a name that nobody has.
+    store.describeGroups(std::array{groupOf("2", "B2")});
+    QVERIFY(!store.find("B1", "D_NOISE"));
+  }
+
+  /// What people type means who has the name, and otherwise the one robot that had it.
+  void namesOfRobotsAreResolvedInOnePlace() {
+    const auto robot = [](std::uint32_t uid, const char* id, const char* name) {
+      GroupInfo group;
+      group.id = id;
+      group.name = name;
+      group.robot.emplace().uid = {uid};
+      return group;
+    };
+    GroupInfo one = robot(1, "1", "Robot 1"), variables = robot(1, "1v", "Robot 1"),
+              other = robot(2, "2", "B1");
+    const auto rename = [](GroupInfo& group, const char* name) {
+      GroupInfo now = group;
+      now.name = name;
+      keepFormerNames(group, now);
+      group = now;
+    };
+    const auto named = [&](std::string_view name) {
+      return groupsNamed(name, std::vector<const GroupInfo*>{&one, &variables, &other});
+    };
+    using Groups = std::vector<GroupId>;
+    rename(variables, "Robot 1 variables");
+    QVERIFY(named("Robot 1") == Groups{0});
+    rename(one, "B1");
+    rename(other, "R1");
+    QVERIFY(named("Robot 1") == (Groups{0, 1}));  // both are of the same robot
+    QVERIFY(named("B1") == Groups{0});            // who has it, not who had it
+    rename(one, "R1");
+    rename(other, "B1");
+    QVERIFY(named("R1") == Groups{0} && named("B1") == Groups{2});
+    QCOMPARE(factsOf(one).formerNames, (std::vector<std::string>{"Robot 1", "B1"}));
+    QCOMPARE(factsOf(other).formerNames, std::vector<std::string>{"R1"});
+    rename(one, "Guest 1");
+    rename(other, "Guest 2");
+    const auto unclear = named("R1"), unknown = named("R7");
+    QVERIFY(!unclear && unclear.error().code == ErrorCode::InvalidArgument);
+    QVERIFY(unclear.error().message.find("Guest 1, Guest 2") != std::string::npos);
+    QVERIFY(!unknown && unknown.error().code == ErrorCode::NotFound);
+    QVERIFY(unknown.error().message.find("Guest 1, Robot 1 variables, Guest 2") !=
+            std::string::npos);
+    // Former names are kept in files.
+    GroupInfo read;
+    readAttributes(attributesOf(one), read);
+    QVERIFY(factsOf(read) == factsOf(one));
   }
 };
 

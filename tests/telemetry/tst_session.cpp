@@ -8,6 +8,7 @@
 #include <telemetry/session/session_export.h>
 #include <telemetry/session/session_repair.h>
 
+#include "../support/group_facts.h"
 #include "session_rig.h"
 
 namespace tst_session {
@@ -20,12 +21,61 @@ class TestSession : public QObject, private NewSessions {
   Q_OBJECT
 
  private slots:
-  void aGroupThatIsRenamedIsOneGroup() {
+  /// Two robots whose colours a referee corrects, and corrects back.
+  void groupsThatExchangeTheirNamesKeepTheirRows() {
+    const std::string path = newPath(), copy = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    QVERIFY(writer);
+    const auto groupOf = [](int robot, const char* name) {
+      GroupInfo group = robotGroup(name, robot);
+      group.id = "robot " + std::to_string(robot);
+      return group;
+    };
+    const std::array<const char*, 2> names{"B1", "R1"};
+    constexpr int ticks = 400;
+    for (int tick = 0; tick < ticks; ++tick) {
+      for (std::size_t robot = 0; robot < 2; ++robot) {
+        const bool isSwapped = tick / 100 % 2 == 1;
+        const int number = static_cast<int>(robot) + 1;
+        const GroupInfo group = groupOf(number, names[isSwapped ? 1 - robot : robot]);
+        Row row = rowOf(static_cast<GroupId>(robot), tick);
+        row.group = (*writer)->addGroup(group);
+        append(**writer, row);
+      }
+    }
+    QVERIFY((*writer)->finish());
+    writer->reset();
+    QVERIFY(repairSession(path, copy));
+    for (const std::string& file : {path, copy}) {
+      const auto reader = SessionReader::open(file);
+      QVERIFY(reader);
+      QVERIFY(reader->notes().empty());
+      QCOMPARE(reader->groups().size(), 2U);
+      for (std::size_t robot = 0; robot < 2; ++robot) {
+        const SessionGroup& group = reader->groups()[robot];
+        // As the names were at the end.
+        QCOMPARE(group.info.name, std::string(names[1 - robot]));
+        QCOMPARE(group.info.id, "robot " + std::to_string(robot + 1));
+        QCOMPARE(group.channels.size(), 1U);
+        QCOMPARE(group.rows, std::uint64_t{ticks});
+      }
+      std::array<int, 2> next{};
+      for (const Row& row : rowsOf(*reader, everything)) {
+        QVERIFY(row == rowOf(row.group, next.at(row.group)++));
+      }
+      QCOMPARE(next, (std::array<int, 2>{ticks, ticks}));
+    }
+  }
+
+  /// Version 0.21 continued a renamed group in another channel, with the attribute "was".
+  void aGroupThatWasRenamedInAnOldFileIsOneGroup() {
     const std::string path = newPath();
     auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
     QVERIFY(writer);
     record(**writer, 120);
-    const GroupId renamed = (*writer)->renameGroup("B1", robotGroup("R1", 1));
+    GroupInfo info = robotGroup("R1", 1);
+    info.robot->was = "B1";
+    const GroupId renamed = (*writer)->addGroup(info);
     for (int tick = 120; tick < 240; ++tick) {
       Row row = rowOf(0, tick);
       row.group = renamed;
@@ -173,7 +223,8 @@ class TestSession : public QObject, private NewSessions {
       made.name = name;
       return made;
     };
-    GroupInfo narrow{"Robot 3", {column("X"), column("Y")}, {{"live", "1"}, {"number", "3"}}};
+    GroupInfo narrow{
+        "Robot 3", {column("X"), column("Y")}, facts({{"live", "1"}, {"number", "3"}})};
     GroupInfo wide = narrow;
     wide.columns.push_back(column("TEMPERATURE"));
     {
@@ -210,6 +261,237 @@ class TestSession : public QObject, private NewSessions {
     QVERIFY(at[0].present && at[0].values.size() == 3 && std::isnan(at[0].values[2]));
     session->rowsAt(7.0, at);
     QCOMPARE(at[0].values[2], 36.5);
+  }
+
+ private:
+  /// A robot's columns as of a match whose advisor is switched on and off.
+  struct Advised {
+    GroupInfo plain{"B1",
+                    {columnOf("ID", ColumnType::Int32), columnOf("BALL", ColumnType::Float32),
+                     columnOf("X", ColumnType::Float64)},
+                    facts({{"robot", "1"}})};
+    GroupInfo advised{"B1",
+                      {columnOf("ID", ColumnType::Int32), columnOf("ADVICE", ColumnType::Int32),
+                       columnOf("BALL", ColumnType::Float32), columnOf("X", ColumnType::Float64)},
+                      facts({{"robot", "1"}})};
+    static ColumnInfo columnOf(const std::string& name, ColumnType type) {
+      ColumnInfo column;
+      column.name = name;
+      column.type = type;
+      return column;
+    }
+    static bool isOn(int row, int each) { return row / each % 2 == 1; }
+    /// Its columns change every `each` rows.
+    void record(SessionWriter& writer, int rows, int each) const {
+      for (int i = 0; i < rows; ++i) {
+        const auto number = static_cast<float>(i);
+        const auto ball = std::bit_cast<std::uint32_t>(number);
+        const auto count = static_cast<unsigned>(i);
+        const std::array x{0.5 * i};
+        if (isOn(i, each))
+          writer.append(writer.addGroup(advised), {0.01 * i, std::array{7U, count, ball}, x});
+        else
+          writer.append(writer.addGroup(plain), {0.01 * i, std::array{7U, ball}, x});
+      }
+    }
+  };
+
+ private slots:
+  void columnsThatComeAndGo() {
+    const std::string path = newPath();
+    constexpr int rows = 400, each = 100;
+    {
+      auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+      QVERIFY(writer);
+      Advised().record(**writer, rows, each);
+      QVERIFY((*writer)->finish());
+    }
+    const auto check = [&](const SessionReader& session) {
+      QCOMPARE(session.groups().size(), std::size_t{1});
+      QCOMPARE(session.groups()[0].rows, static_cast<std::uint64_t>(rows));
+      QCOMPARE(session.groups()[0].channels.size(), std::size_t{2});
+      const GroupInfo& info = session.groups()[0].info;
+      QCOMPARE(info.columns.size(), std::size_t{4});
+      QCOMPARE(info.columns[3].name, std::string("ADVICE"));
+      QCOMPARE(info.columns[3].type, ColumnType::Float64);
+      QCOMPARE(info.columns[1].type, ColumnType::Float32);
+      int i = 0;
+      session.rows({-1.0, 100.0}, {}, [&](GroupId, const RowView& row) {
+        const bool isOn = Advised::isOn(i, each);
+        const bool good = row.words.size() == 2 && row.words[0] == 7 &&
+                          std::bit_cast<float>(row.words[1]) == static_cast<float>(i) &&
+                          row.values[0] == 0.5 * i && std::isnan(row.values[1]) != isOn &&
+                          (!isOn || row.values[1] == i);
+        ++i;
+        return good;
+      });
+      QCOMPARE(i, rows);
+    };
+    const auto session = SessionReader::open(path);
+    QVERIFY(session);
+    check(*session);
+    std::vector<SessionRow> at;
+    session->rowsAt(1.5, at);
+    QCOMPARE(at[0].values[1], 150.0);
+    session->rowsAt(2.5, at);
+    QVERIFY(std::isnan(at[0].values[1]));
+
+    // Every form of export has each column once.
+    for (const ExportFormat format :
+         {ExportFormat::CsvWide, ExportFormat::CsvEven, ExportFormat::JsonLines}) {
+      std::string text;
+      QVERIFY(exportText(*session, format, {}, [&text](std::string_view part) {
+        text += part;
+        return true;
+      }));
+      const QString head = QString::fromStdString(text).section('\n', 0, 0);
+      QCOMPARE(head.count("ADVICE"), 1);
+      QCOMPARE(head.count("BALL"), 1);
+    }
+    const std::string whole = newPath(), part = newPath();
+    QVERIFY(exportFile(*session, ExportFormat::Mcap, {}, whole));
+    check(SessionReader::open(whole).value());
+    ExportSelection some;
+    some.variables = {"ADVICE", "BALL"};
+    QVERIFY(exportFile(*session, ExportFormat::Mcap, some, part));
+    const auto fewer = SessionReader::open(part);
+    QVERIFY(fewer);
+    QCOMPARE(fewer->groups()[0].info.columns.size(), std::size_t{2});
+    int i = 0;
+    fewer->rows({-1.0, 100.0}, {}, [&](GroupId, const RowView& row) {
+      const bool isOn = Advised::isOn(i, each);
+      return std::bit_cast<float>(row.words[0]) == static_cast<float>(i++) &&
+             (isOn ? row.values[0] == i - 1 : std::isnan(row.values[0]));
+    });
+    QCOMPARE(i, rows);
+  }
+
+  /// Recorded by 0.21 while an advisor was switched on (0.5 s), off (1 s) and on again (1.5 s).
+  void anOldSessionWhoseAdvisorWasSwitched() {
+    const auto session = SessionReader::open(PITCHBOARD_TEST_DATA "/sessions/advisor_0.21.mcap");
+    QVERIFY(session);
+    QCOMPARE(session->groups().size(), std::size_t{2});
+    const auto robot = std::ranges::find(session->groups(), std::string("B1"),
+                                         [](const SessionGroup& group) { return group.info.name; });
+    QVERIFY(robot != session->groups().end());
+    QCOMPARE(robot->rows, std::uint64_t{25});
+    const auto g = static_cast<std::size_t>(robot - session->groups().begin());
+    const auto indexOf = [&](const char* name) {
+      const auto& columns = robot->info.columns;
+      const auto at = std::ranges::find(columns, name, &ColumnInfo::name);
+      return static_cast<std::size_t>(std::count_if(columns.begin(), at, [](const ColumnInfo& one) {
+        return one.type == ColumnType::Float64;
+      }));
+    };
+    std::vector<SessionRow> at;
+    for (const double time : {0.1, 0.4, 0.7, 0.9, 1.2, 1.4, 1.7, 1.9}) {
+      session->rowsAt(time, at);
+      QVERIFY(at[g].present && time - at[g].time < 0.15);
+      QVERIFY(std::isfinite(at[g].values[indexOf("TRUE_X")]));
+      const bool isOn = (time > 0.5 && time < 1.0) || time > 1.5;
+      QCOMPARE(std::isfinite(at[g].values[indexOf("ADVISOR_STATE")]), isOn);
+    }
+    std::string text;
+    QVERIFY(exportText(*session, ExportFormat::CsvEven, {}, [&text](std::string_view part) {
+      text += part;
+      return true;
+    }));
+    QStringList names = QString::fromStdString(text).section('\n', 0, 0).split(',');
+    QVERIFY(names.contains(QStringLiteral("B1.ADVISOR_STATE")));
+    QCOMPARE(names.removeDuplicates(), qsizetype{0});
+  }
+
+  /// In a long session curves are drawn from summaries; those of several channels of one group are
+  /// joined without loss.
+  void summariesOfColumnsThatComeAndGo() {
+    const std::string path = newPath();
+    constexpr int rows = 60'000, each = 1700;  // no whole buckets
+    {
+      auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+      QVERIFY(writer);
+      Advised().record(**writer, rows, each);
+      QVERIFY((*writer)->finish());
+    }
+    const auto session = SessionReader::open(path);
+    QVERIFY(session && session->hasSummaries());
+    const GroupSummary summary = session->summary(0);
+    QCOMPARE(summary.rows(), static_cast<std::uint64_t>(rows));
+    double end = -1.0;
+    for (const SummaryPart& part : summary.parts) {
+      QCOMPARE(part.columns.size(), std::size_t{4});
+      for (std::size_t b = 0; b < part.buckets(); ++b) {
+        QVERIFY(part.begin[b] > end);
+        end = part.end[b];
+        const int first = static_cast<int>(std::lround(part.begin[b] / 0.01));
+        const auto& advice = part.columns[3].max;
+        const float value = advice.size() == 1 ? advice[0] : advice[b];
+        QCOMPARE(std::isnan(value), !Advised::isOn(first, each));
+      }
+    }
+  }
+
+  /// Names that appear one by one: a few channels describe them all, every value is there, and what
+  /// waits is written when the robot is silent.
+  void columnsThatAppearOneByOne() {
+    const std::string path = newPath();
+    constexpr int rows = 600;
+    GroupInfo info{"R10", {}, facts({{"live", "1"}})};
+    {
+      auto writer = SessionWriter::create(path, sessionInfo());
+      QVERIFY(writer);
+      std::vector<double> values;
+      for (int i = 0; i < rows; ++i) {
+        info.columns.push_back(Advised::columnOf("NAME_" + std::to_string(i), ColumnType::Float64));
+        values.push_back(i);
+        (*writer)->append((*writer)->addGroup(info), {0.05 * i, {}, values});
+      }
+      const auto inFile = [&path] {
+        const auto part = SessionReader::open(path);
+        return part && !part->groups().empty() ? part->groups()[0].rows : 0;
+      };
+      QTRY_COMPARE_WITH_TIMEOUT(inFile(), static_cast<std::uint64_t>(rows), 20'000);
+      QCOMPARE((*writer)->status().rows, static_cast<std::uint64_t>(rows));
+      QVERIFY((*writer)->finish());
+    }
+    const auto session = SessionReader::open(path);
+    QVERIFY(session);
+    QCOMPARE(session->groups().size(), std::size_t{1});
+    QCOMPARE(session->groups()[0].info.columns.size(), static_cast<std::size_t>(rows));
+    QVERIFY2(session->groups()[0].channels.size() < 12,
+             qPrintable(QString::number(session->groups()[0].channels.size())));
+    int i = 0;
+    session->rows({-1.0, 100.0}, {}, [&](GroupId, const RowView& row) {
+      bool good = std::abs(row.time - 0.05 * i) < 1e-9;
+      for (int c = 0; c < rows; ++c) {
+        const double value = row.values[static_cast<std::size_t>(c)];
+        good = good && (c <= i ? value == c : std::isnan(value));
+      }
+      ++i;
+      return good;
+    });
+    QCOMPARE(i, rows);
+  }
+
+  /// Texts that differ in every message are written once each, not with all others each time.
+  void textsThatKeepChanging() {
+    const std::string path = newPath();
+    constexpr int rows = 3000;
+    GroupInfo info{"R10", {Advised::columnOf("SAYS", ColumnType::Float64)}, facts({{"live", "1"}})};
+    info.columns[0].kind = ColumnKind::Text;
+    {
+      auto writer = SessionWriter::create(path, sessionInfo());
+      QVERIFY(writer);
+      for (int i = 0; i < rows; ++i) {
+        info.columns[0].labels[i] = "text " + std::to_string(i);
+        (*writer)->append((*writer)->addGroup(info), {0.05 * i, {}, std::array{1.0 * i}});
+      }
+      QVERIFY((*writer)->finish());
+    }
+    const auto session = SessionReader::open(path);
+    QVERIFY(session);
+    QCOMPARE(session->groups()[0].rows, static_cast<std::uint64_t>(rows));
+    QVERIFY(session->groups()[0].channels.size() < 12);
+    QVERIFY(session->groups()[0].info.columns[0].labels == info.columns[0].labels);
   }
 
   void fieldNamesAreThoseOfRos() {

@@ -10,6 +10,8 @@
 #include <filesystem>
 
 #include <telemetry/session/session_export.h>
+#include <telemetry/session/session_notes.h>
+#include <telemetry/session/session_repair.h>
 
 #include "session_rig.h"
 
@@ -50,12 +52,11 @@ class TestSessionExport : public QObject {
     return false;
   }
   static bool same(const QByteArray& text, double value) {
+    if (std::isnan(value)) return text.isEmpty();
     double read = 0.0;
     const auto [end, code] = std::from_chars(text.begin(), text.end(), read);
     return code == std::errc() && end == text.end() &&
-           (std::isnan(value)
-                ? std::isnan(read)
-                : std::bit_cast<std::uint64_t>(read) == std::bit_cast<std::uint64_t>(value));
+           std::bit_cast<std::uint64_t>(read) == std::bit_cast<std::uint64_t>(value);
   }
   static double value(const Row& row, std::size_t column) {
     if (column >= row.words.size()) return row.values[column - row.words.size()];
@@ -94,7 +95,7 @@ class TestSessionExport : public QObject {
           float shortest = 0.0F;
           std::from_chars(cells[3].begin(), cells[3].end(), shortest);
           const float expected = std::bit_cast<float>(rowOf(0, tick).words[2]);
-          QVERIFY(std::isnan(expected) ? std::isnan(shortest) : shortest == expected);
+          QVERIFY(std::isnan(expected) ? cells[3].isEmpty() : shortest == expected);
           continue;
         }
         QVERIFY(same(cells[1 + i], value(rowOf(0, tick), column)));
@@ -131,8 +132,8 @@ class TestSessionExport : public QObject {
     const auto lines = textOf(session(), ExportFormat::CsvLong, selection);
     QCOMPARE(lines.size(), 1 + 61 * 2);
     QCOMPARE(lines[0], QByteArray("time,robot,variable,value"));
-    QCOMPARE(lines[1], QByteArray("1,B2,DECISION_ACTION_A,-60"));
-    QCOMPARE(lines[2], QByteArray("1,B2,TRUTH_X,21"));
+    QCOMPARE(lines[1], QByteArray("1,B2,TRUTH_X,21"));
+    QCOMPARE(lines[2], QByteArray("1,B2,DECISION_ACTION_A,-60"));
   }
 
   void jsonLines() {
@@ -183,6 +184,60 @@ class TestSessionExport : public QObject {
         QCOMPARE(row.values.at(0), whole.values[1]);
       }
     }
+  }
+
+  /// Bookmarks that were set in Replay vanished without a word.
+  void notesBesideTheFileGoAlong() {
+    const std::string path = newPath();
+    {
+      auto writer = SessionWriter::create(path, sessionInfo(), {});
+      record(**writer, 120);
+      // A bookmark is recorded when it is set, and again with its note.
+      SessionEvent bookmark{1.5, "bookmark", "", "", EventFacts{}};
+      (*writer)->append(bookmark);
+      bookmark.text = bookmark.facts->detail = "recorded";
+      (*writer)->append(bookmark);
+      QVERIFY((*writer)->finish());
+    }
+    const auto bookmarksOf = [](const SessionReader& reader) {
+      std::vector<std::pair<double, std::string>> found;
+      for (const SessionEvent& event : reader.events()) {
+        if (event.kind == "bookmark") found.emplace_back(event.time, event.text);
+      }
+      return found;
+    };
+    using Bookmarks = std::vector<std::pair<double, std::string>>;
+    QVERIFY(bookmarksOf(*SessionReader::open(path)) == (Bookmarks{{1.5, "recorded"}}));
+    QVERIFY(addSessionNote(path, 0.25, ""));
+    QVERIFY(addSessionNote(path, 0.25, "why \"here\"?"));
+    QVERIFY(addSessionNote(path, 1.5, "changed"));
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader->notes().empty());
+    const Bookmarks both{{0.25, "why \"here\"?"}, {1.5, "changed"}};
+    QVERIFY(bookmarksOf(*reader) == both);
+    // A clip has them inside.
+    ExportSelection selection;
+    selection.range = {0.0, 1.0};
+    const std::string clip = newPath();
+    QVERIFY(exportFile(*reader, ExportFormat::Mcap, selection, clip));
+    QVERIFY(bookmarksOf(*SessionReader::open(clip)) == (Bookmarks{both[0]}));
+    const QByteArray lines = textOf(*reader, ExportFormat::JsonLines).join('\n');
+    QVERIFY(lines.contains("\"text\":\"why \\\"here\\\"?\""));
+    // Each as it was written last.
+    QVERIFY2(lines.count("\"bookmark\"") == 2 && !lines.contains("\"recorded\""),
+             lines.constData());
+    // So has a repaired file.
+    const std::string repaired = newPath();
+    QVERIFY(repairSession(path, repaired));
+    QVERIFY(bookmarksOf(*SessionReader::open(repaired)) == both);
+    // What somebody wrote into the file by hand is not destroyed.
+    QFile file(QString::fromStdString(sessionNotesPath(path)));
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("{\"bookmarks\": oops") > 0);
+    file.close();
+    QCOMPARE(SessionReader::open(path)->notes().size(), 1U);
+    QVERIFY(!addSessionNote(path, 0.5, "lost"));
+    QVERIFY(file.open(QIODevice::ReadOnly));
+    QCOMPARE(file.readAll(), QByteArray("{\"bookmarks\": oops"));
   }
 
   void whatCannotBe() {
@@ -276,24 +331,183 @@ class TestSessionExport : public QObject {
     selection.variables = {"BALL_X", "DECISION_ACTION_A"};
     selection.resampling = {10.0, false};
     auto lines = textOf(session(), ExportFormat::CsvEven, selection);
-    QCOMPARE(lines[0], QByteArray("time,B2.DECISION_ACTION_A,match.BALL_X"));
+    QCOMPARE(lines[0], QByteArray("time,match.BALL_X,B2.DECISION_ACTION_A"));
     QCOMPARE(lines.size(), 51);  // 0.0 to 4.9
     // Every sixth row: held and interpolated agree with it.
     QCOMPARE(lines[11].split(',')[0], QByteArray("1"));
-    QVERIFY(std::abs(lines[11].split(',')[2].toDouble() - 6.0) < 1e-9);
+    QVERIFY(std::abs(lines[11].split(',')[1].toDouble() - 6.0) < 1e-9);
     // Between rows: seven lines a second.
     selection.resampling = {7.0, false};
     lines = textOf(session(), ExportFormat::CsvEven, selection);
-    QVERIFY(std::abs(lines[2].split(',')[2].toDouble() - 0.8) < 1e-9);  // the row at 8/60
-    QCOMPARE(lines[2].split(',')[1], QByteArray("-8"));
+    QVERIFY(std::abs(lines[2].split(',')[1].toDouble() - 0.8) < 1e-9);  // the row at 8/60
+    QCOMPARE(lines[2].split(',')[2], QByteArray("-8"));
     selection.resampling.interpolate = true;
     lines = textOf(session(), ExportFormat::CsvEven, selection);
-    QVERIFY(std::abs(lines[2].split(',')[2].toDouble() - 6.0 / 7.0) < 1e-9);
-    QCOMPARE(lines[2].split(',')[1], QByteArray("-8"));  // a code has nothing between
+    QVERIFY(std::abs(lines[2].split(',')[1].toDouble() - 6.0 / 7.0) < 1e-9);
+    QCOMPARE(lines[2].split(',')[2], QByteArray("-8"));  // a code has nothing between
     selection.resampling.rate = 0.0;
     const auto refused = exportText(session(), ExportFormat::CsvEven, selection,
                                     [](std::string_view) { return true; });
     QVERIFY(!refused);
+  }
+
+  /// A robot that sends every 4 s and one that sends five times a second.
+  std::string slowAndFast() {
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo());
+    const auto column = [](const char* name) {
+      return ColumnInfo{name, ColumnType::Float64, "", "", ColumnKind::Number, {}};
+    };
+    const GroupId slow = (*writer)->addGroup({"B1", {column("X")}, {}});
+    const GroupId fast = (*writer)->addGroup({"B2", {column("X")}, {}});
+    for (int i = 0; i < 75; ++i) {
+      const double time = 0.013 + 0.2 * i, value = i;
+      if (i % 20 == 0) (*writer)->append(slow, {time, {}, std::span(&value, 1)});
+      (*writer)->append(fast, {time + 0.002, {}, std::span(&value, 1)});
+    }
+    if (!(*writer)->finish()) qFatal("not written");
+    return path;
+  }
+
+  /// Every line of a range is that of the whole session at this time.
+  void evenTimesOfARange_data() {
+    QTest::addColumn<bool>("interpolate");
+    QTest::newRow("held") << false;
+    QTest::newRow("interpolated") << true;
+  }
+  void evenTimesOfARange() {
+    QFETCH(bool, interpolate);
+    const auto reader = SessionReader::open(slowAndFast());
+    ExportSelection selection;
+    selection.resampling = {3.0, interpolate};
+    const auto whole = textOf(*reader, ExportFormat::CsvEven, selection);
+    for (const TimeRange range : {TimeRange{10.0, 12.0}, TimeRange{0.0, 3.0}, TimeRange{13.9, 99.0},
+                                  TimeRange{-1e18, 5.0}, TimeRange{6.1, 1e18}}) {
+      selection.range = range;
+      QList<QByteArray> expected{whole[0]};
+      for (const QByteArray& line : whole.mid(1)) {
+        const double time = line.split(',')[0].toDouble();
+        if (time >= range.begin && time <= range.end) expected << line;
+      }
+      QVERIFY(expected.size() > 2);
+      QCOMPARE(textOf(*reader, ExportFormat::CsvEven, selection), expected);
+    }
+    // Robots that nobody exports have no part in it.
+    selection.robots = {"B2"};
+    selection.range = {10.0, 12.0};
+    const auto fast = textOf(*reader, ExportFormat::CsvEven, selection);
+    QVERIFY(fast[1].startsWith("10.015,"));
+  }
+
+  void aClipBeginsWithWhatHeldBefore() {
+    const std::string path = newPath();
+    ExportSelection selection;
+    selection.range = {10.0, 12.0};
+    const auto source = SessionReader::open(slowAndFast());
+    QVERIFY(exportFile(*source, ExportFormat::Mcap, selection, path));
+    const auto clip = SessionReader::open(path);
+    QVERIFY(clip->complete());
+    QCOMPARE(clip->range()->begin, 10.0);
+    QVERIFY(clip->range()->end <= 12.0);
+    const auto lines = textOf(*clip, ExportFormat::CsvWide);
+    QCOMPARE(lines[1], QByteArray("10,40,49"));
+    // A robot that has been silent for long is not there.
+    selection.range = {23.0, 24.0};
+    const std::string late = newPath();
+    QVERIFY(exportFile(*source, ExportFormat::Mcap, selection, late));
+    QCOMPARE(rowsOf(*SessionReader::open(late), everything).size(), 1U);
+  }
+
+  void timesNeverGoBack() {
+    // Rows of one robot arrive later than those of another, events late and in chunks of their own.
+    const std::string path = newPath();
+    auto writer = SessionWriter::create(path, sessionInfo(), smallChunks());
+    (*writer)->addGroup(robotGroup("B1", 1));
+    (*writer)->addGroup(robotGroup("B2", 2));
+    for (int tick = 0; tick < 400; ++tick) {
+      append(**writer, rowOf(0, tick));
+      if (tick >= 2) append(**writer, rowOf(1, tick - 2));
+      if (tick % 50 == 10) (*writer)->append(SessionEvent{tick / 60.0, "kick", "B1", "kick"});
+    }
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    const auto check = [&](ExportFormat format, auto timeOf) {
+      double last = -1.0;
+      for (const QByteArray& line : textOf(*reader, format)) {
+        if (line.startsWith("time")) continue;
+        const double time = timeOf(line);
+        if (time < last) return false;
+        last = time;
+      }
+      return last > 6.0;
+    };
+    const auto ofCsv = [](const QByteArray& line) { return line.split(',')[0].toDouble(); };
+    const auto ofJson = [](const QByteArray& line) {
+      return QJsonDocument::fromJson(line).object()["time"].toDouble();
+    };
+    QVERIFY(check(ExportFormat::CsvWide, ofCsv));
+    QVERIFY(check(ExportFormat::CsvLong, ofCsv));
+    QVERIFY(check(ExportFormat::JsonLines, ofJson));
+    QCOMPARE(textOf(*reader, ExportFormat::CsvWide).size(), 401);
+  }
+
+  void otherOrdersOfMessages_data() {
+    QTest::addColumn<bool>("isBackwards");
+    QTest::newRow("topic by topic") << false;
+    QTest::newRow("backwards") << true;
+  }
+  void otherOrdersOfMessages() {
+    QFETCH(bool, isBackwards);
+    const std::string path = newPath(), twice = newPath(), other = newPath();
+    // Also with two rows of one time, as changes by hand leave them.
+    auto writer = SessionWriter::create(twice, sessionInfo(), smallChunks());
+    record(**writer, 200);
+    for (const GroupId group : {0U, 1U}) append(**writer, rowOf(group, 199));
+    QVERIFY((*writer)->finish());
+    rewrite(twice, other, isBackwards ? backwards : topicByTopic);
+    const auto before = SessionReader::open(twice), after = SessionReader::open(other);
+    QVERIFY(after && after->complete());
+    for (const ExportFormat format : {ExportFormat::CsvWide, ExportFormat::CsvEven}) {
+      QCOMPARE(textOf(*after, format), textOf(*before, format));
+    }
+    for (const ExportFormat format : {ExportFormat::CsvLong, ExportFormat::JsonLines}) {
+      // Lines of one tick are in the order of the file.
+      auto lines = textOf(*after, format), expected = textOf(*before, format);
+      std::ranges::sort(lines);
+      std::ranges::sort(expected);
+      QCOMPARE(lines, expected);
+    }
+    // A copy of it is a session like any other, with summaries that fit.
+    QVERIFY(exportFile(*after, ExportFormat::Mcap, {}, path));
+    QCOMPARE(textOf(*SessionReader::open(path), ExportFormat::CsvWide),
+             textOf(*before, ExportFormat::CsvWide));
+  }
+
+  void columnsInTheOrderOfVariables() {
+    ExportSelection selection;
+    selection.variables = {"BALL_X", "TRUTH_YAW", "VISION_*", "TRUTH_*"};
+    selection.range = {0.0, 0.0};
+    const QByteArray head =
+        "time,match.BALL_X,B1.TRUTH_YAW,B2.TRUTH_YAW,B1.VISION_WORKING,B1.VISION_BALL_DIST,"
+        "B2.VISION_WORKING,B2.VISION_BALL_DIST,B1.TRUTH_X,B2.TRUTH_X";
+    for (const ExportFormat format : {ExportFormat::CsvWide, ExportFormat::CsvEven}) {
+      QCOMPARE(textOf(session(), format, selection)[0], head);
+    }
+    const auto rows = textOf(session(), ExportFormat::CsvLong, selection);
+    QVERIFY(rows[1].startsWith("0,B1,TRUTH_YAW,"));
+    QVERIFY(rows[4].startsWith("0,B1,TRUTH_X,"));
+  }
+
+  void unknownCellsAreEmpty() {
+    ExportSelection selection;
+    selection.robots = {"B1"};
+    selection.variables = {"VISION_BALL_DIST", "TRUTH_YAW"};
+    selection.range = {0.0, 0.0};
+    for (const ExportFormat format : {ExportFormat::CsvWide, ExportFormat::CsvEven}) {
+      QCOMPARE(textOf(session(), format, selection)[1], QByteArray("0,,-inf"));
+    }
+    QCOMPARE(textOf(session(), ExportFormat::CsvLong, selection)[1],
+             QByteArray("0,B1,VISION_BALL_DIST,"));
   }
 
   void timeOfDay() {

@@ -131,6 +131,44 @@ class TestSessionResolution : public QObject {
     QVERIFY(session::groupFromJson(text) == group);
   }
 
+  void factsAreWrittenByTheirNames() {
+    GroupInfo group{"B1", {}, RobotFacts{}, MatchFacts{"rigid-body", 5, 60.0}};
+    RobotFacts& robot = *group.robot;
+    robot.uid = {7};
+    robot.slot = 3;
+    robot.number = 4;
+    robot.team = pitchboard::TeamColor::Red;
+    robot.order = pitchboard::RobotOrder{true, {2, 4, 1}};
+    robot.place = 0;
+    robot.name = "Ana";
+    robot.live = true;
+    robot.boardKey = 0;
+    robot.imuStartsAt180 = false;
+    robot.battery = BatteryVolts{16.8, 14.2, 13.0};
+    robot.fieldOfView_deg = 61.3;
+    const GroupAttributes written = attributesOf(group);
+    QCOMPARE(written, (GroupAttributes{{"battery_empty", "13"},
+                                       {"battery_full", "16.8"},
+                                       {"battery_low", "14.2"},
+                                       {"field_of_view", "61.3"},
+                                       {"imu180", "0"},
+                                       {"key", "0"},
+                                       {"live", "1"},
+                                       {"name", "Ana"},
+                                       {"number", "4"},
+                                       {"order", "1 2 4 1"},
+                                       {"physics", "rigid-body"},
+                                       {"place", "0"},
+                                       {"robot", "3"},
+                                       {"seed", "5"},
+                                       {"team", "red"},
+                                       {"tick_rate", "60"},
+                                       {"uid", "7"}}));
+    QVERIFY(session::groupFromJson(session::groupToJson(group)) == group);
+    readAttributes({{"number", "-3"}, {"team", "green"}, {"seed", "x"}, {"radius", "nan"}}, group);
+    QVERIFY(!group.robot && !group.match);
+  }
+
   void aFileOfVersionOneHasHeadings() {
     GroupInfo group{"g", {{"A", ColumnType::Float64, "m", "Truth", ColumnKind::Number, {}}}, {}};
     std::string text = session::groupToJson(group);

@@ -244,7 +244,7 @@ class TestSessionSummary : public QObject {
         QCOMPARE(summary.range()->end, end);
       }
     }
-    // Who stops it gets nothing, and may ask again.
+    // A caller that cancels gets nothing and may ask again.
     const auto reader = SessionReader::open(broken);
     QVERIFY(reader->summary(0, [] { return false; }).parts.empty());
     QCOMPARE(reader->summary(0).rows(), std::uint64_t{100});

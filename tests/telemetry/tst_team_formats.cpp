@@ -10,6 +10,7 @@
 #include <QtTest>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <random>
 #include <set>
 
@@ -124,6 +125,74 @@ class TestTeamFormats : public QObject {
     QFETCH(QJsonObject, message);
     const QString problem = wrong(message);
     QVERIFY2(problem.isEmpty(), qPrintable(problem));
+  }
+
+  void numbersThatJsonCannotWriteCostThemselvesOnly_data() {
+    QTest::addColumn<QByteArray>("number");
+    QTest::addColumn<int>("error");
+    const auto row = [](const char* number, TextError error) {
+      QTest::newRow(number) << QByteArray(number) << static_cast<int>(error);
+    };
+    for (const char* number :
+         {"NaN", "nan", "-nan", "-nan(ind)", "Infinity", "-Infinity", "inf", "-INF"}) {
+      row(number, TextError::NotFinite);
+    }
+    for (const char* number : {"1e400", "-1E+400"}) row(number, TextError::TooLarge);
+    QTest::newRow("400 digits") << QByteArray(400, '9') << static_cast<int>(TextError::TooLarge);
+  }
+  void numbersThatJsonCannotWriteCostThemselvesOnly() {
+    QFETCH(QByteArray, number);
+    QFETCH(int, error);
+    const auto kind = static_cast<TextError>(error);
+    const auto read = [&](const char* profile, QByteArray text, bool tolerant) {
+      auto made = loadProfile(profile).value();
+      made.tolerant = tolerant;
+      const TextDecoder decoder(made);
+      DecodedText decoded;
+      text.replace("@", number);
+      decodeAt(decoder, text, decoded);
+      std::map<std::string, double> values;
+      for (std::size_t i = 0; i < decoded.count; ++i) {
+        if (decoded.has(i)) values[decoder.name(decoded, i)] = decoded.values[i];
+      }
+      const bool isGood = decoded.accepted() && decoded.errors.has(kind) &&
+                          !decoded.errors.has(TextError::BadFormat);
+      return std::pair(isGood, values);
+    };
+    // Fields of the profile and others, in objects and lists, first and last, beside quoted ones.
+    for (const bool tolerant : {false, true}) {
+      const auto [good, values] =
+          read("plotjuggler",
+               "{\"a\" : @ ,\"robot1\":{\"pose\":{\"x\":@,\"y\":-0.5},\"speed\":@,\"v\":[@,@,3]},"
+               "\"q\":\"\\\"@,:\",\n  \"timestamp\":1.5,\"z\":@}",
+               tolerant);
+      QVERIFY(good);
+      QVERIFY(!values.contains("POSE_X") && !values.contains("robot1.speed"));
+      QVERIFY(!values.contains("a") && !values.contains("z"));
+      QCOMPARE(values.at("POSE_Y"), -0.5);
+      QCOMPARE(values.at("ROBOT_TIME"), 1.5);
+      QCOMPARE(values.at("robot1.v[2]"), 3.0);
+    }
+    const auto [good, values] = read(
+        "bold-hearts",
+        R"({"unum":3,"team":1,"agent":{"ball":[@,0.5]},"hw":{"volt":12.1,"temps":[40,41]}})", true);
+    QVERIFY(good);
+    QCOMPARE(values.at("BATTERY"), 12.1);
+    QCOMPARE(values.at("TEMPERATURE_1"), 40.0);
+    // As it was in Lua, whose other values may now follow such a number, too.
+    const auto [lua, inLua] =
+        read("upenn", R"({["id"]=2,["pose"]={["x"]=@,["y"]=-0.5,["a"]=1.57,},["new"]=@,})", false);
+    QVERIFY(lua);
+    QCOMPARE(inLua.at("POSE_Y"), -0.5);
+  }
+  void otherWordsAreNoJson() {
+    const TextDecoder decoder(loadProfile("plotjuggler").value());
+    for (const char* text : {R"({"a":nothing})", R"({"a":1.2.3})", R"({"a":NaN NaN})", R"({NaN:1})",
+                             R"({"a":NaNo})", R"({"a":1e400)"}) {
+      DecodedText decoded;
+      decodeAt(decoder, text, decoded);
+      QVERIFY2(decoded.errors.has(TextError::BadFormat), text);
+    }
   }
 
   /// Each format has an example, or a message of the independent writer.

@@ -34,6 +34,7 @@ class TestTeamMonitor : public QObject {
     const RobotStatus back = monitor.status(start + 20s).robots[0];
     QVERIFY(!back.timedOut);
     QCOMPARE(back.recoveries, std::uint64_t(1));
+    QCOMPARE(back.offline, Duration(20s));
     QCOMPARE(back.messages, std::uint64_t(2));
     QVERIFY(back.processes[0].state == HeartbeatState::Working);
   }
@@ -170,7 +171,7 @@ class TestTeamMonitor : public QObject {
                         {"B", FieldType::Float, unit, "", FieldMeaning::Charge}};
       QVERIFY(validate(profile));
       MonitorOptions options;
-      options.battery = usualBattery;
+      options.battery = defaultBattery;
       TeamMonitor monitor(profile, options);
       QCOMPARE(give(monitor, std::string("3 ") + sent, start), Verdict::Used);
       const RobotStatus robot = monitor.status(start).robots.at(0);
@@ -196,7 +197,7 @@ class TestTeamMonitor : public QObject {
     TeamStatus team = monitor.status(start);
     QCOMPARE(team.robots.size(), std::size_t(64));
     QCOMPARE(team.refusedRobots, std::uint64_t(36));
-    // Who has timed out makes room.
+    // A robot that has timed out makes room.
     QCOMPARE(give(monitor, text(200), start + 10s), Verdict::Used);
     QCOMPARE(monitor.status(start + 10s).robots.size(), std::size_t(64));
     for (unsigned host = 0; host < 1000; ++host) give(monitor, "junk", start + 11s, from(host));

@@ -83,6 +83,75 @@ class TestUdpReceiver : public QObject {
     QCOMPARE(takeAll(**second, 1), std::vector<std::string>{"all"});
   }
 
+  /// A second studio took all robots away from the first one, because the kernel hands a unicast
+  /// datagram to the socket that was bound last.
+  void theFirstProgramKeepsItsDatagrams() {
+    ReceiverOptions options = freePorts(1, INADDR_ANY);
+    options.yieldsToFirst = true;
+    options.retry = 1ms;
+    auto first = UdpReceiver::start(options);
+    QVERIFY(first);
+    options.ports[0] = (*first)->status().ports[0].port;
+    auto second = UdpReceiver::start(options);
+    QVERIFY(second);
+    QVERIFY((*second)->status().ports[0].bound);
+    QVERIFY((*second)->status().ports[0].broadcastsOnly);
+    QVERIFY(!(*first)->status().ports[0].broadcastsOnly);
+    const TestSocket socket;
+    QVERIFY(socket.send(options.ports[0], "to this computer"));
+    QCOMPARE(takeAll(**first, 1), std::vector<std::string>{"to this computer"});
+    if (!socket.send(options.ports[0], "to all", 0x7fffffff))
+      QSKIP("no broadcast on this loopback");
+    QCOMPARE(takeAll(**first, 1), std::vector<std::string>{"to all"});
+    QCOMPARE(takeAll(**second, 1), std::vector<std::string>{"to all"});
+    first->reset();
+    QTRY_VERIFY(!(*second)->status().ports[0].broadcastsOnly);
+    QVERIFY(socket.send(options.ports[0], "now here"));
+    QCOMPARE(takeAll(**second, 1), std::vector<std::string>{"now here"});
+  }
+
+  void sharedPortsAreNamed() {
+    ReceiverStatus status;
+    for (const int number : {1241, 1242, 1243, 1341, 3838}) {
+      PortStatus& port = status.ports.emplace_back();
+      port.port = static_cast<std::uint16_t>(number);
+      port.bound = true;
+    }
+    QCOMPARE(sharedPortsText(status, {}), std::string());
+    for (PortStatus& port : status.ports) {
+      port.others = "pitchboard (process 7)";
+      port.broadcastsOnly = port.othersTakeAll = port.port < 1300;
+    }
+    const std::string text = sharedPortsText(status, std::uint16_t{3838});
+    QVERIFY2(
+        text.find("UDP 1241–1243 was first opened by pitchboard (process 7)") != std::string::npos,
+        text.c_str());
+    QVERIFY2(text.find("UDP 1341 was also opened by pitchboard (process 7)") != std::string::npos,
+             text.c_str());
+    QVERIFY2(text.find("3838") == std::string::npos, text.c_str());
+    QCOMPARE(portRanges({3838, 1242, 1241}), (std::vector<std::string>{"1241–1242", "3838"}));
+  }
+
+  /// The bytes are a real robot's; only the address tells.
+  void simulatedSendersAreRecognized() {
+    auto receiver = UdpReceiver::start(freePorts(1, INADDR_ANY));
+    const std::uint16_t port = (*receiver)->status().ports[0].port;
+    for (const std::uint32_t to : {0x7f000001U, 0x7fffffffU}) {
+      auto sender = UdpSender::simulatedTo({to});
+      QVERIFY2(sender, sender ? "" : sender.error().text().c_str());
+      if (!sender->send(port, "1 2 3 OUT")) QSKIP("no broadcast on this loopback");
+      DatagramBatch batch;
+      QVERIFY((*receiver)->take(batch, 10s));
+      QVERIFY(isSimulated(batch[0].sender.address));
+    }
+    QVERIFY(UdpSender::simulatedTo({0xc0a80107}));  // 192.168.1.7: cannot be marked
+    const TestSocket robot;
+    QVERIFY(robot.send(port, "1 2 3 OUT"));
+    DatagramBatch batch;
+    QVERIFY((*receiver)->take(batch, 10s));
+    QVERIFY(!isSimulated(batch[0].sender.address));
+  }
+
   void aTakenPortIsReportedAndRetried() {
     auto blocker = std::make_unique<TestSocket>();
     ReceiverOptions options = freePorts(2);

@@ -99,7 +99,7 @@ Result<void> validate(const std::vector<AttachedBoard>& boards) {
     if (board.robot < 0 || board.robot > 999) {
       return tl::unexpected(problem("a robot number must be 1 to 999", key));
     }
-    if (board.bytes % 4 != 0 || board.bytes > SegmentLayout::mostBytes) {
+    if (board.bytes % 4 != 0 || board.bytes > SegmentLayout::maxBytes) {
       return tl::unexpected(problem("the size must be a multiple of 4, at most 1 MiB", key));
     }
     TRY(mapOf(board));

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/board_columns.h>
+#include <robotlink/live/robot_uids.h>
 
 #include "board_map.h"
 #include "board_meanings.h"
@@ -24,9 +26,9 @@ using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
 constexpr auto lookInterval = 100ms;  // is it still the segment of this key?
-constexpr auto longestSleep = 50ms;   // so that stopping takes no longer
+constexpr auto maxSleep = 50ms;       // so that stopping takes no longer
 constexpr auto rateWindow = 1s;
-constexpr std::size_t mostRows = 4096;  // waiting; older ones are lost, counted
+constexpr std::size_t maxRows = 4096;  // waiting; older ones are lost, counted
 
 }  // namespace
 
@@ -38,13 +40,15 @@ class AttachedRobots::Reader {
         m_map(std::move(map)),
         m_columns(m_map.catalog),
         m_seconds(std::move(seconds)) {
-    m_group = {
-        std::move(name),
-        m_columns.columns(),
-        {{"key", std::to_string(board.key)}, {"attached", "1"}, {"rate", shortest(board.rate)}}};
+    m_group = {std::move(name), m_columns.columns()};
+    telemetry::RobotFacts& facts = m_group.robot.emplace();
+    facts.boardKey = board.key;
+    facts.attached = true;
+    facts.rate_hz = board.rate;
     if (place == AttachedTo::Live) {
-      m_group.attributes["robot"] = m_group.attributes["number"] = std::to_string(board.number());
-      m_group.attributes["team"] = info(board.team).name;
+      facts.uid = uidOfBoard(board.key);
+      facts.slot = facts.number = board.number();
+      facts.team = board.team;
     }
     for (const Variable& variable : m_map.catalog.variables()) {
       const int offset = variable.type == VariableType::Int ? 0 : m_map.layout.floatOffset;
@@ -62,7 +66,7 @@ class AttachedRobots::Reader {
     return m_status;
   }
 
-  std::vector<BoardRow> takeRows() {
+  std::vector<BoardRow> drainRows() {
     const std::lock_guard lock(m_mutex);
     return std::exchange(m_rows, {});
   }
@@ -72,6 +76,7 @@ class AttachedRobots::Reader {
     const std::lock_guard lock(m_mutex);
     if (m_newest.words.empty()) return std::nullopt;
     RobotFrame robot;
+    robot.uid = uidOfBoard(m_board.key);
     robot.key = {placeByColour, m_board.number(), 0};
     robot.identity.number = m_board.number();
     robot.identity.team = m_board.team;
@@ -80,8 +85,7 @@ class AttachedRobots::Reader {
     robot.link = boardLink(std::max(0.0, m_seconds() - m_newest.time), m_board.rate, detached);
     robot.link->messages = m_status.samples;
     if (!detached) robot.lamps = m_lamps;
-    buildRobot(m_meanings.reader(m_newest), m_meanings.adviceReader(m_newest), field, battery,
-               false, robot);
+    buildRobot(m_meanings.reader(m_newest), field, battery, false, robot);
     robot.action = robot.decided.value_or(0);
     robot.board = m_meanings.contents(m_newest);
     robot.name = m_group.name;
@@ -127,7 +131,7 @@ class AttachedRobots::Reader {
       }
       // More even than a condition variable.
       std::this_thread::sleep_until(
-          std::min(view ? std::min(due, nextLook) : nextLook, now + longestSleep));
+          std::min(view ? std::min(due, nextLook) : nextLook, now + maxSleep));
       if (!view) due = Clock::now();
     }
   }
@@ -160,9 +164,9 @@ class AttachedRobots::Reader {
     m_newest = row;
     m_lamps = m_works.note(m_meanings.reader(m_newest), row.time);
     m_columns.makeHoles(row.words);
-    if (m_rows.size() == mostRows) {
-      m_rows.erase(m_rows.begin(), m_rows.begin() + mostRows / 4);
-      m_status.missed += mostRows / 4;
+    if (m_rows.size() == maxRows) {
+      m_rows.erase(m_rows.begin(), m_rows.begin() + maxRows / 4);
+      m_status.missed += maxRows / 4;
     }
     m_rows.push_back(std::move(row));
     ++m_status.samples;
@@ -228,9 +232,9 @@ std::vector<RobotFrame> AttachedRobots::robots(const sim::FieldSpec& field,
   return all;
 }
 
-void AttachedRobots::takeRows(const BoardRowsTaker& take) {
+void AttachedRobots::drainRows(const BoardRowsTaker& take) {
   for (const auto& reader : m_readers) {
-    const std::vector<BoardRow> rows = reader->takeRows();
+    const std::vector<BoardRow> rows = reader->drainRows();
     if (!rows.empty()) take(reader->group(), rows);
   }
 }
@@ -241,39 +245,49 @@ std::vector<AttachedStatus> AttachedRobots::status() const {
   return all;
 }
 
-void BoardRowKeeper::describe(Known& known, const Name& name) {
-  const std::string before = known.info.name;
-  known.name = name;
-  known.info.name = name.name;
-  for (const auto& [key, value] : name.attributes) known.info.attributes[key] = value;
-  known.id = m_sink->renameGroup(before, known.info);
+void BoardRowKeeper::Known::describe(const Facts& facts) {
+  info.name = facts.name;
+  info.robot = own;
+  const telemetry::RobotFacts& now = facts.robot;
+  telemetry::RobotFacts& robot = own ? *info.robot : info.robot.emplace();
+  if (now.uid != RobotUid{}) robot.uid = now.uid;
+  if (now.team) robot.team = now.team;
+  if (now.order) robot.order = now.order;
+  if (now.place) robot.place = now.place;
+  if (now.battery) robot.battery = now.battery;
+  if (!now.name.empty()) robot.name = now.name;
+  if (!now.linkOf.empty()) robot.linkOf = now.linkOf;
+  if (!now.sentFrom.empty()) robot.sentFrom = now.sentFrom;
 }
 
-void BoardRowKeeper::take(const std::string& board, const telemetry::GroupInfo& group,
-                          const Name& name, std::span<const BoardRow> rows) {
-  const auto [known, isNew] = m_groups.try_emplace(board);
-  Known& now = known->second;
-  if (isNew || now.name != name || now.info.columns.size() != group.columns.size()) {
-    const std::string before = isNew ? name.name : now.info.name;
-    now.info = group;
-    now.info.name = before;
-    describe(now, name);
+void BoardRowKeeper::take(const std::string& id, const telemetry::GroupInfo& group,
+                          const Facts& facts, std::span<const BoardRow> rows) {
+  const auto [entry, isNew] = m_groups.try_emplace(id.empty() ? group.name : id);
+  Known& known = entry->second;
+  if (isNew || known.info.columns != group.columns || known.own != group.robot) {
+    known.info = group;
+    known.info.id = id;
+    known.own = group.robot;
+    known.describe(facts);
+    known.id = m_sink->addGroup(known.info);
   }
-  for (const BoardRow& row : rows) m_sink->append(now.id, {row.time, row.words, row.values});
+  for (const BoardRow& row : rows) m_sink->append(known.id, {row.time, row.words, row.values});
 }
 
-void BoardRowKeeper::releaseNames(const std::map<std::string, Name>& names) {
-  std::erase_if(m_groups, [&names](const auto& known) { return !names.contains(known.first); });
-  for (auto& [board, known] : m_groups) {
-    if (known.info.name == names.at(board).name) continue;
-    describe(known, {known.info.name + " (before " + board + ")", known.name.attributes});
+void BoardRowKeeper::describe(const std::map<std::string, Facts>& facts) {
+  std::set<std::string> taken;
+  for (const auto& [id, now] : facts) taken.insert(now.name);
+  std::vector<telemetry::GroupInfo> changed;
+  for (auto& [id, known] : m_groups) {
+    const telemetry::GroupInfo before = known.info;
+    const auto now = facts.find(id);
+    if (now == facts.end())
+      known.info.name = earlierName(known.info.name, taken);
+    else
+      known.describe(now->second);
+    if (known.info != before) changed.push_back(known.info);
   }
-}
-
-void BoardRowKeeper::rename(const std::map<std::string, Name>& names) {
-  for (auto& [board, known] : m_groups) {
-    if (known.name != names.at(board)) describe(known, names.at(board));
-  }
+  if (!changed.empty()) m_sink->describeGroups(changed);
 }
 
 }  // namespace pitchboard::link

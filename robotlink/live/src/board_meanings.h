@@ -32,10 +32,6 @@ class BoardMeanings {
       for (std::size_t i = 0; i < m_places.size(); ++i) {
         if (telemetry::meaningTable[i].variable == column.name) m_places[i] = m_columns.back();
       }
-      const auto advice = std::ranges::find(adviceVariables(), column.name);
-      if (advice != adviceVariables().end()) {
-        m_advice[static_cast<std::size_t>(advice - adviceVariables().begin())] = m_columns.back();
-      }
     }
     m_names = std::move(names);
   }
@@ -57,13 +53,6 @@ class BoardMeanings {
     };
   }
 
-  AdviceReader adviceReader(const BoardRow& row) const {
-    return [this, &row](std::size_t variable) -> std::optional<double> {
-      const auto& place = m_advice[variable];
-      return place ? std::optional(place->read(row)) : std::nullopt;
-    };
-  }
-
  private:
   struct Place {
     telemetry::ColumnType type;
@@ -78,7 +67,6 @@ class BoardMeanings {
   std::shared_ptr<const std::vector<std::string>> m_names;
   std::vector<Place> m_columns;
   std::array<std::optional<Place>, telemetry::fieldMeaningCount> m_places;
-  std::array<std::optional<Place>, adviceVariableCount> m_advice;
 };
 
 }  // namespace pitchboard::link

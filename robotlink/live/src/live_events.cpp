@@ -20,61 +20,67 @@ MatchEvent made(Kind kind, double time, std::string detail = {}, std::optional<i
   return event;
 }
 
-std::string teamText(const RefereeTeamView& team) {
+std::string teamText(const GameTeam& team) {
   return "team " + std::to_string(team.number) +
-         (team.colour == "unknown" ? std::string() : " (" + team.colour + ")");
-}
-
-const RefereeTeamView* team(const RefereeView& view, int number) {
-  for (const RefereeTeamView& side : view.teams) {
-    if (side.number == number) return &side;
-  }
-  return nullptr;
+         (team.colour == TeamColor::Unknown ? std::string()
+                                            : " (" + std::string(info(team.colour).name) + ")");
 }
 
 }  // namespace
 
-void LiveEvents::compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out) {
+void LiveEvents::compareReferee(const MatchFrame& frame, std::vector<MatchEvent>& out) {
+  const Game& now = *frame.game;
+  const RefereeReception& reception = frame.reception;
+  const double time = frame.snapshot.time;
   // What a game begins with is nothing to tell.
-  RefereeView before;
-  const bool isFirst = !m_referee;
-  if (m_referee) before = *m_referee;
-  if (isFirst || now.sender != before.sender || now.version != before.version) {
-    std::string who = now.sender;
-    if (isFirst) who += ", " + teamText(now.teams[0]) + " against " + teamText(now.teams[1]);
-    out.push_back(made(Kind::RefereeReceived, time, std::move(who), now.version));
+  const bool isFirst = !m_game;
+  const Game before = m_game.value_or(Game{});
+  if (isFirst || reception.sender != m_reception.sender ||
+      reception.version != m_reception.version) {
+    std::string who = (reception.simulated ? "simulated, " : "") + reception.sender;
+    if (isFirst) {
+      who += ", " + teamText(now.teamAt(false)) + " against " + teamText(now.teamAt(true));
+    }
+    out.push_back(made(Kind::RefereeReceived, time, std::move(who), reception.version));
   }
-  if (now.state != before.state) {
-    out.push_back(made(Kind::GameState, time, now.state, now.secondsLeft));
+  if (isFirst || now.state != before.state) {
+    out.push_back(made(Kind::GameState, time, std::string(labelOf(now.state)), now.secondsLeft()));
+    out.back().state = now.state;
   }
-  if (now.setPlay != before.setPlay) {
-    out.push_back(made(Kind::SetPlay, time, now.setPlay));
-    out.back().team = now.performingTeam.value_or(0);
+  if (now.setPlay() != before.setPlay()) {
+    out.push_back(made(Kind::SetPlay, time, std::string(labelOf(now.setPlay()))));
+    const int taker = now.setPlayTeam();
+    if (taker >= 0) out.back().team = now.teams[static_cast<std::size_t>(taker)].number;
   }
-  if (now.phase != before.phase) out.push_back(made(Kind::GamePhase, time, now.phase));
-  if (now.firstHalf != before.firstHalf) {
-    out.push_back(made(Kind::Half, time, {}, now.firstHalf ? 1 : 2));
+  if (now.phase != before.phase) {
+    const bool normal = now.phase == GamePhase::Normal;
+    out.push_back(
+        made(Kind::GamePhase, time, normal ? std::string() : std::string(labelOf(now.phase))));
   }
+  if (now.half != before.half) out.push_back(made(Kind::Half, time, {}, now.half));
   if (now.stopped != before.stopped) {
     out.push_back(made(now.stopped ? Kind::PlayStopped : Kind::PlayGoesOn, time));
   }
-  if (now.timedOut != before.timedOut) {
-    out.push_back(made(now.timedOut ? Kind::RefereeOffline : Kind::RefereeBack, time));
+  if (reception.timedOut != m_reception.timedOut) {
+    out.push_back(made(reception.timedOut ? Kind::RefereeOffline : Kind::RefereeBack, time));
   }
-  if (now.conflict && !before.conflict) {
-    out.push_back(made(Kind::SecondReferee, time, now.sender));
+  if (reception.conflict && !m_reception.conflict) {
+    out.push_back(made(Kind::SecondReferee, time, reception.sender));
   }
   if (isFirst) return;
-  for (std::size_t i = 0; i < now.teams.size(); ++i) {
+  for (const bool right : {false, true}) {
     // Teams change sides at half-time: by number, not by place.
-    const RefereeTeamView& team = now.teams[i];
-    const RefereeTeamView* was = link::team(before, team.number);
-    if (was == nullptr || was->score == team.score) continue;
-    MatchEvent event = made(team.score > was->score ? Kind::Goal : Kind::ScoreCorrected, time);
-    event.side = i == 0 ? Side::Left : Side::Right;
+    const GameTeam& team = now.teamAt(right);
+    const int was = before.teamNumbered(team.number);
+    if (was == Game::noTeam) continue;
+    const int scored = team.score - before.teams[static_cast<std::size_t>(was)].score;
+    if (scored == 0) continue;
+    MatchEvent event = made(scored > 0 ? Kind::Goal : Kind::ScoreCorrected, time);
+    event.side = right ? Side::Right : Side::Left;
     event.team = team.number;
     event.colour = team.colour;
-    event.score = sim::Score{now.teams[0].score, now.teams[1].score};
+    event.teamName = teamName(team.number, frame.teams);
+    event.score = sim::Score{now.teamAt(false).score, now.teamAt(true).score};
     out.push_back(std::move(event));
   }
 }
@@ -83,25 +89,29 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
                               std::vector<MatchEvent>& out) {
   const telemetry::LinkHealth& link = *received.link;
   const auto add = [&](Kind kind, std::string detail = {}, std::optional<int> value = {}) {
-    MatchEvent event = eventOf(kind, time, received.key, received.name);
+    MatchEvent event = eventOf(kind, time, received.uid, received.name);
     event.detail = std::move(detail);
     event.value = value;
     out.push_back(std::move(event));
   };
-  const auto [entry, isNew] = m_robots.try_emplace(received.key);
+  const auto [entry, isNew] = m_robots.try_emplace(received.uid);
   Known& known = entry->second;
   if (isNew) {
     add(Kind::RobotReceived, link.sender.text());
   } else if (link.sender.address != known.address) {
     add(Kind::AddressChanged, known.address.text() + " to " + link.sender.address.text());
   }
-  if (link.timedOut != known.timedOut) {
-    add(link.timedOut ? Kind::RobotOffline : Kind::RobotBack);
+  const double lastMessage = time - telemetry::secondsOf(link.age);
+  if (link.timedOut && !known.timedOut) add(Kind::RobotOffline);
+  if (!link.timedOut && known.timedOut) {
+    add(Kind::RobotBack, {}, static_cast<int>(std::lround(lastMessage - known.lastMessage)));
   }
   if (link.conflict && !known.conflict) add(Kind::SecondSender, link.sender.text());
-  const auto& penalty = received.penalty;
-  if (penalty && (!known.penalty || known.penalty->text != penalty->text)) {
-    add(Kind::Penalised, penalty->text, penalty->secondsLeft);
+  const auto penalty = received.penalty && !received.penalty->isSubstitute()
+                           ? received.penalty
+                           : std::optional<Penalty>();
+  if (penalty && (!known.penalty || known.penalty->kind != penalty->kind)) {
+    add(Kind::Penalised, std::string(labelOf(penalty->kind)), penalty->secondsLeft);
   } else if (!penalty && known.penalty) {
     add(Kind::PenaltyOver);
   }
@@ -125,6 +135,7 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
   }
   known.address = link.sender.address;
   known.timedOut = link.timedOut;
+  known.lastMessage = lastMessage;
   known.conflict = link.conflict;
   known.penalty = penalty;
   known.batteryLow = low;
@@ -132,9 +143,10 @@ void LiveEvents::compareRobot(const RobotFrame& received, double time,
 
 std::vector<MatchEvent> LiveEvents::compare(const MatchFrame& now) {
   std::vector<MatchEvent> out;
-  if (now.referee) {
-    compareReferee(*now.referee, now.snapshot.time, out);
-    m_referee = now.referee;
+  if (now.game) {
+    compareReferee(now, out);
+    m_game = now.game;
+    m_reception = now.reception;
   }
   for (const RobotFrame& robot : now.robots) {
     if (robot.link) compareRobot(robot, now.snapshot.time, out);
@@ -154,7 +166,7 @@ std::vector<MatchEvent> LiveEvents::compareClock(telemetry::Duration setBy, doub
 }
 
 std::vector<MatchEvent> LiveEvents::comparePorts(const telemetry::ReceiverStatus& network,
-                                                 double time) {
+                                                 const std::string& shared, double time) {
   std::vector<MatchEvent> out;
   for (const telemetry::PortStatus& port : network.ports) {
     std::string& known = m_ports[port.port];
@@ -162,6 +174,10 @@ std::vector<MatchEvent> LiveEvents::comparePorts(const telemetry::ReceiverStatus
     out.push_back(
         made(port.bound ? Kind::PortBack : Kind::PortLost, time, port.problem, int{port.port}));
     known = port.problem;
+  }
+  if (shared != m_shared) {
+    out.push_back(made(Kind::PortsShared, time, shared));
+    m_shared = shared;
   }
   return out;
 }

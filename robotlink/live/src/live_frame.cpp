@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include <robotlink/frame/build_robot.h>
-#include <robotlink/frame/referee_view.h>
 #include <robotlink/live/live_teams.h>
 #include <simcore/world/published_frame.h>
 
@@ -13,7 +12,6 @@ namespace pitchboard::link {
 namespace {
 
 using telemetry::FieldMeaning;
-using telemetry::RefereeState;
 using telemetry::RobotStatus;
 
 std::vector<ReceivedValue> valuesOf(const RobotStatus& robot) {
@@ -50,22 +48,22 @@ std::vector<RobotReplyView> repliesOf(const telemetry::RefereeTracker& tracker,
   return views;
 }
 
-/// Returns the referee as received: its sender, the age of the packet, and what else is known.
-RefereeView receivedView(const telemetry::RefereeTracker& tracker, const Teams& teams, int ourTeam,
-                         telemetry::WallTime now) {
-  RefereeView view = viewOf(*tracker.state(), teams);
-  if (tracker.state()->team(ourTeam) != nullptr) view.ourTeam = ourTeam;
-  view.sender = tracker.sender()->text();
-  view.age = telemetry::secondsOf(*tracker.age(now));
-  view.timedOut = tracker.timedOut(now);
-  view.conflict = tracker.conflict(now);
-  view.replies = repliesOf(tracker, now);
-  if (tracker.trueData()) {
-    view.truth = truthOf(*tracker.trueData());
-    view.truth->age =
-        telemetry::secondsOf(std::max(now - tracker.trueDataTime(), telemetry::Duration{}));
-  }
-  return view;
+RefereeReception receptionOf(const telemetry::RefereeTracker& tracker, int ourTeam,
+                             telemetry::WallTime now) {
+  RefereeReception out;
+  out.version = tracker.state()->version;
+  out.size = tracker.state()->size;
+  if (tracker.game()->teamNumbered(ourTeam) != Game::noTeam) out.ourTeam = ourTeam;
+  out.sender = tracker.sender()->text();
+  out.simulated = telemetry::isSimulated(tracker.sender()->address);
+  out.age = telemetry::secondsOf(*tracker.age(now));
+  out.timedOut = tracker.timedOut(now);
+  out.conflict = tracker.conflict(now);
+  out.replies = repliesOf(tracker, now);
+  out.truth = tracker.trueGame();
+  out.truthAge =
+      telemetry::secondsOf(std::max(now - tracker.trueDataTime(), telemetry::Duration{}));
+  return out;
 }
 
 }  // namespace
@@ -81,13 +79,14 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
   frame.settings = std::make_shared<const FrameSettings>(std::move(settings));
   frame.snapshot.time = time;
   frame.speed = 1.0;
-  const RefereeState* state = referee.state() ? &*referee.state() : nullptr;
-  frame.teams = teamsOf(options, state);
-  if (state != nullptr) {
-    frame.referee = receivedView(referee, frame.teams, ourNumber(options, state), team.time);
-    frame.snapshot.score = {frame.referee->teams[0].score, frame.referee->teams[1].score};
-    frame.snapshot.clock = frame.referee->secondsLeft;
-    frame.snapshot.clockRunning = frame.referee->state == "PLAYING" && !frame.referee->timedOut;
+  frame.game = referee.game();
+  frame.teams = teamsOf(options, frame.game);
+  if (frame.game) {
+    frame.reception = receptionOf(referee, ourNumber(options, frame.game), team.time);
+    frame.snapshot.score = {frame.game->teamAt(false).score, frame.game->teamAt(true).score};
+    frame.snapshot.clock = frame.game->secondsLeft();
+    frame.snapshot.clockRunning =
+        frame.game->state == PlayState::Playing && !frame.reception.timedOut;
   }
   frame.robots.reserve(team.robots.size());
   for (const RobotStatus& robot : team.robots) {
@@ -100,17 +99,21 @@ MatchFrame liveFrame(const LiveOptions& options, const telemetry::TeamStatus& te
     out.ownName = ownNameOf(options, robot.key);
     out.link = robot;
     out.lamps = robot.processes;
-    if (state != nullptr) {
+    if (frame.game) {
       const auto place = static_cast<std::size_t>(robot.key.team);
       const int number = place < frame.teams.size() ? frame.teams[place].number : 0;
-      out.penalty = penaltyOf(*state, number, robot.key.number);
+      const int index = frame.game->teamNumbered(number);
+      if (index != Game::noTeam) {
+        const GameTeam& own = frame.game->teams[static_cast<std::size_t>(index)];
+        out.penalty = penaltyOf(*frame.game, own.player(robot.key.number));
+      }
     }
     out.values = valuesOf(robot);
     const RobotReader reader = [&robot](FieldMeaning meaning) {
       // The decoder has left out a ball that is not seen.
       return meaning == FieldMeaning::BallSeen ? std::nullopt : robot.value(meaning);
     };
-    buildRobot(reader, {}, options.field, options.team.battery, false, out);
+    buildRobot(reader, options.field, options.team.battery, false, out);
     out.battery = robot.battery;
     out.action = out.decided.value_or(0);
   }

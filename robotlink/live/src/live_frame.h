@@ -3,7 +3,9 @@
 
 // Makes frames from received messages: a pure function of its arguments. Private to robotlink.
 
-#include <robotlink/live/live_watch.h>
+#include <robotlink/frame/match_frame.h>
+#include <robotlink/live/live_options.h>
+#include <telemetry/wire/referee_tracker.h>
 
 namespace pitchboard::link {
 

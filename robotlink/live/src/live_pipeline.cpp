@@ -10,7 +10,7 @@
 #include <base/lined_json.h>
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_teams.h>
-#include <telemetry/series/group_order.h>
+#include <telemetry/series/robot_names.h>
 
 namespace pitchboard::link {
 namespace {
@@ -20,11 +20,14 @@ using telemetry::GroupId;
 using telemetry::GroupInfo;
 using telemetry::WallTime;
 
+std::string boardId(int key) {
+  return groupId(uidOfBoard(key), RobotRows::Variables);
+}
+
 constexpr double reportPeriod = 0.25;  // s
 constexpr double snapshotPeriod =
     15.0;  // s; moments of a recording are rebuilt from the last snapshot before them
 constexpr double sentReportPeriod = 1.0;  // s
-constexpr std::size_t maxQueued = 10'000;
 
 GroupInfo sentHealthGroup() {
   GroupInfo group;
@@ -41,47 +44,71 @@ GroupInfo sentHealthGroup() {
     telemetry::ColumnInfo& column = group.columns.emplace_back();
     column.name = name;
     column.unit = unit;
-    column.category = telemetry::linkCategory;
+    column.category = linkCategory;
   }
   return group;
 }
 
 }  // namespace
 
+void LiveNews::add(std::vector<MatchEvent> later) {
+  std::ranges::move(later, std::back_inserter(events));
+  if (events.size() > maxEvents) {
+    events.erase(events.begin(), events.end() - static_cast<std::ptrdiff_t>(maxEvents));
+  }
+}
+
 void RowFan::remove(const std::shared_ptr<telemetry::RowSink>& sink) {
   std::erase_if(m_sinks, [&sink](const Sink& one) { return one.rows == sink; });
 }
 
-std::size_t RowFan::placeOf(std::string_view name) const {
-  const auto found = std::ranges::find(m_groups, name, &GroupInfo::name);
+std::size_t RowFan::indexOf(const GroupInfo& group) const {
+  const auto found = std::ranges::find_if(
+      m_groups, [&group](const GroupInfo& known) { return isSameGroup(known, group); });
   return static_cast<std::size_t>(found - m_groups.begin());
 }
 
 GroupId RowFan::addGroup(const GroupInfo& info) {
-  const std::size_t place = placeOf(info.name);
-  if (place == m_groups.size()) m_groups.emplace_back();
-  m_groups[place] = info;
+  const std::size_t index = indexOf(info);
+  GroupInfo now = info;
+  if (index == m_groups.size())
+    m_groups.emplace_back();
+  else
+    keepFormerNames(m_groups[index], now);
+  m_groups[index] = std::move(now);
   for (Sink& sink : m_sinks) {
-    if (place < sink.groups.size() && sink.groups[place]) {
-      sink.groups[place] = sink.rows->addGroup(info);
+    if (index < sink.groups.size() && sink.groups[index]) {
+      sink.groups[index] = sink.rows->addGroup(m_groups[index]);
     }
   }
-  return static_cast<GroupId>(place);
+  return static_cast<GroupId>(index);
 }
 
-GroupId RowFan::renameGroup(std::string_view from, const GroupInfo& to) {
-  const std::size_t old = placeOf(from);
-  const std::size_t known = placeOf(to.name);
-  if (old == m_groups.size() || old == known) return addGroup(to);
-  const std::size_t place = known == m_groups.size() ? old : known;
-  m_groups[old].name.clear();
-  m_groups[place] = to;
-  for (Sink& sink : m_sinks) {
-    if (old >= sink.groups.size() || !std::exchange(sink.groups[old], std::nullopt)) continue;
-    sink.groups.resize(m_groups.size());
-    sink.groups[place] = sink.rows->renameGroup(from, to);
+void RowFan::describeGroups(std::span<const GroupInfo> groups) {
+  for (const GroupInfo& group : groups) {
+    const std::size_t index = indexOf(group);
+    if (index == m_groups.size()) continue;
+    GroupInfo& known = m_groups[index];
+    GroupInfo now{group.name, {}, group.robot};
+    keepFormerNames(known, now);
+    if (known.name == now.name && known.robot == now.robot) continue;
+    known.name = std::move(now.name);
+    known.robot = std::move(now.robot);
+    m_described.insert(index);
   }
-  return static_cast<GroupId>(place);
+  if (!m_isHeld) release();
+}
+
+void RowFan::release() {
+  m_isHeld = false;
+  const std::set<std::size_t> described = std::exchange(m_described, {});
+  for (Sink& sink : m_sinks) {
+    std::vector<GroupInfo> changed;
+    for (const std::size_t index : described) {
+      if (index < sink.groups.size() && sink.groups[index]) changed.push_back(m_groups[index]);
+    }
+    if (!changed.empty()) sink.rows->describeGroups(changed);
+  }
 }
 
 void RowFan::append(GroupId group, const telemetry::RowView& row) {
@@ -98,7 +125,8 @@ LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
       m_monitorOptions(monitorOptions(m_options)),
       m_zero(zero),
       m_state(m_options),
-      m_rows(m_fan, rowsOptions(m_options, m_teams, zero)),
+      m_rows(m_fan, rowsOptions(m_options, m_teams, zero), m_state.uids),
+      m_sent(m_state.uids),
       m_boardRows(m_fan),
       m_sentHealth(m_fan) {
   useCatalogs();
@@ -127,8 +155,14 @@ void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   m_monitorOptions = monitorOptions(m_options);
   m_state.setTeams(m_monitorOptions);
   m_state.referee.setOptions(LiveState::refereeOptions(m_options));
+  if (!m_options.simulated) m_state.forgetSimulated(m_options);
   useCatalogs();
-  noteTeams(m_state.monitor.renamings());
+  noteTeams();
+  std::vector<RobotKey> robots;
+  for (const telemetry::RobotStatus& robot : m_state.monitor.status(now).robots) {
+    robots.push_back(robot.key);
+  }
+  m_state.uids->keepOnly(robots);
   sendSnapshot(now);
 }
 
@@ -140,19 +174,20 @@ void LivePipeline::clear(WallTime now) {
   m_badVariables = m_refusedVariables = 0;
   m_badReason.clear();
   m_events = {};
-  noteTeams({});
+  noteTeams();
   m_rows.clearRefused();
-  m_unknownReferee = m_refusedReferees = 0;
+  m_unknownReferee = m_refusedReferees = m_ignoredSimulated = 0;
   m_unknownReason.clear();
   m_unknownSample.clear();
   sendSnapshot(now);
 }
 
-void LivePipeline::forget(const RobotKey& robot, WallTime now) {
-  m_state.monitor.forget(robot);
-  for (const auto& [sender, key] : m_sentRobots) {
-    if (key == robot) m_sent.forget(sender.second, sender.first);
+void LivePipeline::forget(RobotUid robot, WallTime now) {
+  if (const auto key = m_state.uids->keyOf(robot)) m_state.forget(*key);
+  for (const auto& [sender, uid] : m_sentRobots) {
+    if (uid == robot) m_sent.forget(sender.second, sender.first);
   }
+  noteTeams();
   sendSnapshot(now);
 }
 
@@ -164,7 +199,7 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
   const auto packet = telemetry::decodeReferee(datagram.payload);
   if (packet) {
     m_state.takeReferee(*packet, datagram);
-    if (m_state.teams(m_options) != m_teams) noteTeams({});
+    if (m_state.teams(m_options) != m_teams) noteTeams();
   } else {
     ++m_unknownReferee;
     m_unknownReason = packet.error().message;
@@ -176,20 +211,30 @@ void LivePipeline::takeReferee(const DatagramView& datagram) {
           .referee = &packet});
 }
 
+/// Returns the team of a robot that sends variables: a team knows nothing of the ports to which
+/// they come.
+std::optional<int> LivePipeline::teamOf(int number, telemetry::Address sender) const {
+  const auto ours = std::ranges::find(m_teams, true, &Team::ours);
+  return m_state.monitor.teamOf(sender, number, static_cast<int>(ours - m_teams.begin()));
+}
+
 void LivePipeline::takeVariables(const DatagramView& datagram) {
-  const auto place = m_state.monitor.placeOf(datagram.sender.address);
+  const auto message = telemetry::parsePb2(datagram.payload);
+  const auto place = teamOf(message ? message->robot : 0, datagram.sender.address);
   if (!place) {
     ++m_refusedVariables;
     return;
   }
-  const auto message = telemetry::parsePb2(datagram.payload);
   const double time = std::max(0.0, seconds(datagram.time));
   LiveDatagram taken{.time = time, .view = datagram, .teams = m_teams, .variables = &message};
   if (message) {
     taken.variablesVerdict = m_sent.take(*message, datagram, *place, time);
     if (taken.variablesVerdict == SentBoards::Verdict::TooManyRobots) ++m_refusedVariables;
     const auto known = m_sentRobots.find({datagram.sender.address, message->robot});
-    taken.robot = known != m_sentRobots.end() ? known->second : RobotKey{*place, message->robot, 0};
+    taken.robot = {*place, message->robot, 0};
+    if (known != m_sentRobots.end()) {
+      taken.robot = m_state.uids->keyOf(known->second).value_or(taken.robot);
+    }
   } else {
     ++m_badVariables;
     m_badReason = message.error().text();
@@ -197,7 +242,15 @@ void LivePipeline::takeVariables(const DatagramView& datagram) {
   notify(taken);
 }
 
-void LivePipeline::take(const DatagramView& datagram) {
+void LivePipeline::take(const DatagramView& received) {
+  DatagramView datagram = received;
+  // It came while a state was saved that does not contain it. A recording goes on from that state
+  // with what came later.
+  if (datagram.time <= m_saved) datagram.time = m_saved + telemetry::Duration(1);
+  if (!m_options.simulated && telemetry::isSimulated(datagram.sender.address)) {
+    ++m_ignoredSimulated;
+    return;
+  }
   const int variables = datagram.localPort - m_options.variablesPortBase;
   if (m_options.variablesPortBase > 0 && variables > 0 && variables <= m_options.robots) {
     takeVariables(datagram);
@@ -213,7 +266,7 @@ void LivePipeline::take(const DatagramView& datagram) {
   LiveDatagram taken{.time = time, .view = datagram, .teams = m_teams};
   taken.verdict = m_state.takeRobot(datagram, time);
   if (taken.verdict) {
-    if (!monitor.renamings().empty()) noteTeams(monitor.renamings());
+    if (!monitor.renamings().empty()) noteTeams();
     taken.decoder = &monitor.decoder();
     taken.decoded = &monitor.decoded();
     taken.robot = {monitor.decoded().place, monitor.decoded().robot, 0};
@@ -233,15 +286,60 @@ void LivePipeline::take(const DatagramView& datagram) {
   notify(taken);
 }
 
-MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
+MatchFrame LivePipeline::frame(WallTime now, const AttachedRobots* boards) const {
+  std::vector<Board> joined;
+  return join(m_state.monitor.status(now), boards, now, joined);
+}
+
+/// The frame of what is known, and the robots whose blackboards are received.
+MatchFrame LivePipeline::join(const telemetry::TeamStatus& team, const AttachedRobots* attached,
+                              WallTime now, std::vector<Board>& boards) const {
+  MatchFrame frame = m_state.frame(m_options, team, seconds(now));
+  frame.serial = m_serial;
+  std::vector<RobotFrame> robots;
+  if (attached != nullptr) robots = attached->robots(m_options.field, m_options.team.battery);
+  for (RobotFrame& robot : m_sent.robots(now, m_options.field, m_monitorOptions)) {
+    robot.identity.team = drawnColour(m_options, robot.key, frame.teams);
+    robot.ownName = ownNameOf(m_options, robot.key);
+    robots.push_back(std::move(robot));
+  }
+  for (const RobotFrame& robot : robots) {
+    boards.push_back(
+        {{robot.link->sender.address, robot.key.number}, robot.boardKey, robot.name, {}});
+  }
+  const std::vector<RobotUid> uids = joinBoards(frame, std::move(robots));
+  for (std::size_t i = 0; i < uids.size(); ++i) boards[i].robot = uids[i];
+  return frame;
+}
+
+MatchFrame LivePipeline::advance(WallTime now, AttachedRobots* attached) {
+  struct Taken {
+    std::string id;  // of the group
+    const GroupInfo* group;
+    std::vector<BoardRow> rows;
+  };
+  std::vector<Taken> taken;
+  const auto keep = [&taken](const GroupInfo& group, std::span<const BoardRow> rows) {
+    const std::optional<int>& key = factsOf(group).boardKey;
+    taken.push_back({key ? boardId(*key) : group.id, &group, {rows.begin(), rows.end()}});
+  };
+  // Before the robots: who has rows is then one of them.
+  if (attached != nullptr) attached->drainRows(keep);
+  m_sent.drainRows(keep);
+  ++m_serial;
   const telemetry::TeamStatus team = m_state.monitor.status(now);
-  const double time = seconds(now);
-  MatchFrame frame = m_state.frame(m_options, team, time);
-  frame.serial = ++m_serial;
-  std::ranges::move(std::exchange(m_renamings, {}), std::back_inserter(m_news.renamings));
-  addBoards(frame, boards, now);
+  std::vector<Board> boards;
+  MatchFrame frame = join(team, attached, now, boards);
+  nameBoards(frame, boards, now);
+  for (const Taken& one : taken) {
+    const auto known = m_boardFacts.find(one.id);
+    if (!m_fan->isEmpty() && known != m_boardFacts.end()) {
+      m_boardRows.take(one.id, *one.group, known->second, one.rows);
+    }
+  }
   notify(m_events.compare(frame));
   for (const auto& observer : m_observers) observer->frameMade(frame);
+  const double time = seconds(now);
   if (time >= m_nextReport) {
     m_nextReport = time + reportPeriod;
     if (!m_fan->isEmpty()) m_rows.report(team);
@@ -251,70 +349,59 @@ MatchFrame LivePipeline::frame(WallTime now, AttachedRobots* boards) {
   return frame;
 }
 
-/// Robots whose blackboards are received join the frame, and their rows get their names.
-void LivePipeline::addBoards(MatchFrame& frame, AttachedRobots* attached, WallTime now) {
-  struct Taken {
-    const GroupInfo* group;
-    std::vector<BoardRow> rows;
-  };
-  std::vector<Taken> taken;
-  const auto keep = [&taken](const GroupInfo& group, std::span<const BoardRow> rows) {
-    taken.push_back({&group, {rows.begin(), rows.end()}});
-  };
-  // Before the robots: who has rows is then one of them.
-  std::vector<RobotFrame> boards;
-  if (attached != nullptr) {
-    attached->takeRows(keep);
-    boards = attached->robots(m_options.field, m_options.team.battery);
-  }
-  m_sent.takeRows(keep);
-  for (RobotFrame& robot : m_sent.robots(now, m_options.field, m_monitorOptions)) {
-    robot.identity.team = drawnColour(m_options, robot.key, frame.teams);
-    robot.ownName = ownNameOf(m_options, robot.key);
-    boards.push_back(std::move(robot));
-  }
-  std::vector<std::string> known;
-  std::vector<SentKey> senders;
-  for (const RobotFrame& board : boards) {
-    known.push_back(board.name);
-    senders.emplace_back(board.link->sender.address, board.key.number);
-  }
-  const std::vector<RobotKey> keys = joinBoards(frame, std::move(boards));
-  std::map<RobotKey, std::string> robots;
-  std::map<std::string, BoardRowKeeper::Name> names;
+/// The groups of rows of robots whose blackboards are received get the names of the frame.
+void LivePipeline::nameBoards(const MatchFrame& frame, const std::vector<Board>& boards,
+                              WallTime now) {
+  std::map<RobotUid, std::string> robots;
+  std::map<std::string, BoardRowKeeper::Facts> facts;
   m_sentRobots.clear();
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    const RobotFrame& robot = *frame.robot(keys[i]);
-    robots[keys[i]] = robot.name;
-    m_sentRobots[senders[i]] = keys[i];
-    BoardRowKeeper::Name& name = names[known[i]];
-    GroupInfo listed;
-    telemetry::setOrder(listed, orderOf(keys[i], frame.teams));
-    name = {robot.name, std::move(listed.attributes)};
-    name.attributes["team"] = info(robot.identity.team).name;
-    if (!robot.ownName.empty()) name.attributes["name"] = robot.ownName;
-    if (m_monitorOptions.teamBatteries.contains(keys[i].team)) {
-      const telemetry::BatteryLimits& limits = m_monitorOptions.batteryOf(keys[i].team);
-      name.attributes["battery_full"] = shortest(limits.fullPerCell * limits.cells);
-      name.attributes["battery_low"] = shortest(limits.lowPerCell * limits.cells);
-      name.attributes["battery_empty"] = shortest(limits.emptyPerCell * limits.cells);
+  for (const Board& board : boards) {
+    const RobotFrame& robot = *frame.robot(board.robot);
+    robots[board.robot] = robot.name;
+    m_sentRobots[board.sender] = board.robot;
+    BoardRowKeeper::Facts& named = facts[board.key ? boardId(*board.key) : board.group];
+    named.name = robot.name;
+    telemetry::RobotFacts& known = named.robot;
+    known.order = orderOf(robot.key, frame.teams);
+    known.team = robot.identity.team;
+    known.name = robot.ownName;
+    if (m_monitorOptions.teamBatteries.contains(robot.key.team)) {
+      const telemetry::BatteryLimits& limits = m_monitorOptions.batteryOf(robot.key.team);
+      known.battery = telemetry::BatteryVolts{limits.fullPerCell * limits.cells,
+                                              limits.lowPerCell * limits.cells,
+                                              limits.emptyPerCell * limits.cells};
     }
-    if (senders[i].first == telemetry::Address{}) continue;
-    name.attributes["place"] = std::to_string(keys[i].team);
-    name.attributes["sent"] = senders[i].first.text();
+    if (board.sender.first == telemetry::Address{}) continue;
+    known.place = robot.key.team;
+    known.sentFrom = board.sender.first.text();
   }
-  // Messages and variables may exchange their names.
-  m_boardRows.releaseNames(names);
-  if (robots != m_boardNames) {
+  if (std::exchange(m_hasNewNames, false) || facts != m_boardFacts || robots != m_boardNames) {
     m_boardNames = std::move(robots);
-    noteTeams({});
+    m_boardFacts = std::move(facts);
+    nameGroups(now);
   }
-  m_boardRows.rename(names);
-  if (m_fan->isEmpty()) return;
-  for (const Taken& one : taken) {
-    const auto name = names.find(one.group->name);
-    if (name != names.end()) m_boardRows.take(name->first, *one.group, name->second, one.rows);
+}
+
+/// All groups get their names together.
+void LivePipeline::nameGroups(WallTime now) {
+  m_fan->hold();
+  m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero, m_boardNames));
+  m_boardRows.describe(m_boardFacts);
+  m_sentHealth.describe(agentFacts(details(now).sent));
+  m_fan->release();
+}
+
+std::map<std::string, BoardRowKeeper::Facts> LivePipeline::agentFacts(
+    const std::vector<SentStatus>& all) const {
+  std::map<std::string, BoardRowKeeper::Facts> facts;
+  for (const SentStatus& sent : all) {
+    BoardRowKeeper::Facts& known = facts[groupId(sent.uid, RobotRows::Agent)];
+    known.name = sent.name + " agent";
+    known.robot.order = orderOf(sent.robot, m_teams);
+    known.robot.linkOf = sent.name;
+    known.robot.uid = sent.uid;
   }
+  return facts;
 }
 
 /// About once a second: how the variables of each robot arrive.
@@ -323,15 +410,7 @@ void LivePipeline::reportSent(WallTime now) {
   m_nextSentReport = seconds(now) + sentReportPeriod;
   if (m_fan->isEmpty()) return;
   const std::vector<SentStatus> all = details(now).sent;
-  const auto boardOf = [](const SentStatus& sent) {
-    return sent.link.sender.address.text() + " " + std::to_string(sent.robot.number);
-  };
-  std::map<std::string, BoardRowKeeper::Name> names;
-  for (const SentStatus& sent : all) {
-    names[boardOf(sent)] = {sent.name + " agent", {{"link", sent.name}}};
-  }
-  m_sentHealth.releaseNames(names);
-  m_sentHealth.rename(names);
+  const std::map<std::string, BoardRowKeeper::Facts> facts = agentFacts(all);
   for (const SentStatus& sent : all) {
     const telemetry::LinkHealth& link = sent.link;
     if (link.age >= m_options.team.timeout) continue;
@@ -349,7 +428,8 @@ void LivePipeline::reportSent(WallTime now) {
                   sent.clockOffset,
                   optionalNumber(sent.refresh_ms),
                   optionalNumber(sent.waiting)};
-    m_sentHealth.take(boardOf(sent), group, names.at(boardOf(sent)), {&row, 1});
+    const std::string id = groupId(sent.uid, RobotRows::Agent);
+    m_sentHealth.take(id, group, facts.at(id), {&row, 1});
   }
 }
 
@@ -358,7 +438,14 @@ void LivePipeline::noticeClock(telemetry::Duration setBy, double time) {
 }
 
 void LivePipeline::noticePorts(const telemetry::ReceiverStatus& network, double time) {
-  notify(m_events.comparePorts(network, time));
+  notify(m_events.comparePorts(network, sharedPorts(network), time));
+}
+
+std::string LivePipeline::sharedPorts(const telemetry::ReceiverStatus& network) const {
+  // A referee broadcasts; only monitors get packets of their own.
+  std::optional<std::uint16_t> broadcast;
+  if (!m_options.monitor) broadcast = static_cast<std::uint16_t>(m_options.refereePort);
+  return telemetry::sharedPortsText(network, broadcast);
 }
 
 LiveDetails LivePipeline::details(WallTime now) const {
@@ -377,13 +464,15 @@ LiveDetails LivePipeline::details(WallTime now) const {
   details.sent = m_sent.status(now);
   for (SentStatus& sent : details.sent) {
     const auto known = m_sentRobots.find({sent.link.sender.address, sent.robot.number});
-    if (known != m_sentRobots.end()) sent.robot = known->second;
-    const auto named = m_boardNames.find(sent.robot);
+    const RobotUid robot = known != m_sentRobots.end() ? known->second : sent.uid;
+    sent.robot = m_state.uids->keyOf(robot).value_or(sent.robot);
+    const auto named = m_boardNames.find(robot);
     sent.name = named != m_boardNames.end() ? named->second : robotName(sent.robot, m_teams);
   }
   details.badVariables = m_badVariables;
   details.badVariablesReason = m_badReason;
   details.refusedVariables = m_refusedVariables;
+  details.ignoredSimulated = m_ignoredSimulated;
   return details;
 }
 
@@ -391,20 +480,18 @@ LiveDetails LivePipeline::details(WallTime now) const {
 void LivePipeline::sendSnapshot(WallTime now) {
   const double time = seconds(now);
   m_nextSnapshot = time + snapshotPeriod;
+  m_saved = now;
   if (m_observers.empty()) return;
   const std::string text = m_state.text(m_options, time, m_zero);
   for (const auto& observer : m_observers) observer->remembered(time, text);
 }
 
-/// Teams may be called otherwise from now on, and these robots have other keys.
-void LivePipeline::noteTeams(const std::vector<Renaming>& renamings) {
+/// Teams and robots may be called otherwise from now on. The next frame has the new names; groups
+/// of rows get them with it.
+void LivePipeline::noteTeams() {
   m_teams = m_state.teams(m_options);
-  pitchboard::rename(m_boardNames, renamings);
-  for (auto& [sender, robot] : m_sentRobots) robot = renamed(robot, renamings);
-  m_rows.setOptions(rowsOptions(m_options, m_teams, m_zero, m_boardNames), renamings);
-  if (renamings.empty()) return;
-  m_events.rename(renamings);
-  m_renamings.push_back(renamings);
+  m_hasNewNames = true;
+  m_sent.place([this](int number, telemetry::Address sender) { return teamOf(number, sender); });
 }
 
 void LivePipeline::notify(const LiveDatagram& datagram) {
@@ -412,17 +499,14 @@ void LivePipeline::notify(const LiveDatagram& datagram) {
 }
 
 void LivePipeline::notify(const std::vector<MatchEvent>& events) {
-  std::vector<MatchEvent>& queue = m_news.events;
-  queue.insert(queue.end(), events.begin(), events.end());
-  if (queue.size() > maxQueued) {
-    queue.erase(queue.begin(), queue.end() - static_cast<std::ptrdiff_t>(maxQueued));
-  }
+  m_news.add(events);
   for (const auto& observer : m_observers) {
     for (const MatchEvent& event : events) observer->happened(event);
   }
 }
 
 void LivePipeline::observe(std::shared_ptr<LiveObserver> observer, WallTime now) {
+  m_saved = now;
   observer->remembered(seconds(now), m_state.text(m_options, seconds(now), m_zero));
   if (auto rows = observer->rows()) m_fan->add(std::move(rows));
   m_observers.push_back(std::move(observer));

@@ -6,12 +6,15 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <simcore/world/action_codes.h>
-#include <telemetry/series/group_order.h>
 
-namespace pitchboard::telemetry {
+namespace pitchboard::link {
+
+using namespace telemetry;
+
 namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
@@ -49,24 +52,21 @@ std::array<double, healthColumns.size()> healthValues(const RobotStatus& robot) 
           robot.battery && robot.battery->volts == 0.0 ? robot.battery->fraction * 100.0 : nothing};
 }
 
-std::string nameOf(const LiveRowsOptions& options, const RobotKey& robot) {
-  const auto board = options.boards.find(robot);
-  return board == options.boards.end() ? robotName(robot, options.teams) : board->second;
-}
-
-GroupInfo linkGroup(const std::string& robot, const RobotOrder& order) {
-  GroupInfo info{robot + " link", {}, {{"link", robot}}};
-  setOrder(info, order);
-  for (const HealthColumn& column : healthColumns) {
-    info.columns.push_back({column.name,
-                            ColumnType::Float64,
-                            column.unit,
-                            linkCategory,
-                            ColumnKind::Number,
-                            {},
-                            column.resolution});
-  }
-  return info;
+const std::vector<ColumnInfo>& linkColumns() {
+  static const std::vector<ColumnInfo> columns = [] {
+    std::vector<ColumnInfo> made;
+    for (const HealthColumn& column : healthColumns) {
+      made.push_back({column.name,
+                      ColumnType::Float64,
+                      column.unit,
+                      linkCategory,
+                      ColumnKind::Number,
+                      {},
+                      column.resolution});
+    }
+    return made;
+  }();
+  return columns;
 }
 
 ColumnInfo columnOf(const ProfileField& field) {
@@ -105,10 +105,13 @@ struct LiveRows::Robot {
     std::size_t column = noColumn;
     std::optional<double> absent;
   };
+  RobotUid uid;
   RobotKey key;
+  bool isGone = false;  // no robot sends under its key, or another one does
   Sender sender;
   std::string name;
-  bool hasBoard = false;  // whose rows have the name
+  bool hasBoard = false;        // whose rows have the name
+  telemetry::RobotFacts facts;  // by the options
   GroupId group = 0, link = 0;
   Profile profile;  // by which `places` were made
   std::vector<Place> places;
@@ -116,61 +119,76 @@ struct LiveRows::Robot {
   std::vector<double> values;
   double lastTime = never, lastHealth = never;
   bool timedOut = false;
-
-  std::string groupName() const { return hasBoard ? name + " telemetry" : name; }
 };
 
-LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options)
-    : m_sink(std::move(sink)), m_options(std::move(options)) {}
+LiveRows::LiveRows(std::shared_ptr<RowSink> sink, LiveRowsOptions options,
+                   std::shared_ptr<RobotUids> uids)
+    : m_sink(std::move(sink)), m_options(std::move(options)), m_uids(std::move(uids)) {}
 
 LiveRows::~LiveRows() = default;
 
-void LiveRows::setOptions(LiveRowsOptions options, const std::vector<Renaming>& renamings) {
+void LiveRows::setOptions(LiveRowsOptions options) {
   options.zero = m_options.zero;
   m_options = std::move(options);
-  for (Robot& robot : m_robots) robot.key = renamed(robot.key, renamings);
-  // Where two exchange their names, one has to give way.
   for (Robot& robot : m_robots) {
-    const bool isWanted = std::ranges::any_of(m_robots, [&](const Robot& other) {
-      return other.key != robot.key && nameOf(m_options, other.key) == robot.name;
-    });
-    if (isWanted) renew(robot, robot.name + " (before)");
+    const auto key = m_uids->keyOf(robot.uid);
+    robot.isGone = !key;
+    if (key) robot.key = *key;
   }
-  for (Robot& robot : m_robots) renew(robot, nameOf(m_options, robot.key));
+  nameRobots();
+  std::vector<GroupInfo> groups;
+  for (const Robot& robot : m_robots) {
+    groups.push_back(linkOf(robot));
+    if (!robot.columns.empty()) groups.push_back(groupOf(robot));
+  }
+  m_sink->describeGroups(groups);
 }
 
-/// Its groups get this name, and the attributes that it has now.
-void LiveRows::renew(Robot& robot, std::string name) {
-  const std::string before = robot.groupName();
-  const std::string link = linkGroup(std::exchange(robot.name, std::move(name)), {}).name;
-  robot.hasBoard = m_options.boards.contains(robot.key);
-  robot.link =
-      m_sink->renameGroup(link, linkGroup(robot.name, orderOf(robot.key, m_options.teams)));
-  if (!robot.columns.empty()) robot.group = m_sink->renameGroup(before, groupOf(robot));
-  // A group that was there already does not go back.
-  robot.lastTime = std::max(robot.lastTime, m_newest);
-  robot.lastHealth = std::max(robot.lastHealth, m_newest);
+/// Robots that are received have the names and facts that follow from the options. The others
+/// keep theirs, because their keys may mean other robots, but give way.
+void LiveRows::nameRobots() {
+  std::set<std::string> taken;
+  for (const auto& [robot, name] : m_options.boards) taken.insert(name);
+  for (Robot& robot : m_robots) {
+    if (robot.isGone) continue;
+    const auto board = m_options.boards.find(robot.uid);
+    robot.hasBoard = board != m_options.boards.end();
+    robot.name = robot.hasBoard ? board->second : robotName(robot.key, m_options.teams);
+    robot.facts = {};
+    if (m_options.describe) m_options.describe(robot.key, robot.facts);
+    robot.facts.order = orderOf(robot.key, m_options.teams);
+    robot.facts.team = colourAt(robot.key.team, m_options.teams);
+    taken.insert(robot.name);
+  }
+  for (Robot& robot : m_robots) {
+    if (robot.isGone) robot.name = earlierName(robot.name, taken);
+  }
 }
 
 LiveRows::Robot* LiveRows::robotOf(const RobotKey& key, const Sender& sender) {
-  const auto found = std::ranges::find(m_robots, key, &Robot::key);
+  const RobotUid uid = m_uids->ofMessages(key, sender.address);
+  const auto found = std::ranges::find(m_robots, uid, &Robot::uid);
   if (found != m_robots.end()) {
     const bool moved = found->sender.address != sender.address;
     found->sender = sender;
-    if (moved) addGroups(*found);
+    if (found->isGone || found->key != key) {
+      found->key = key;
+      setOptions(m_options);
+    } else if (moved) {
+      addGroups(*found);
+    }
     return &*found;
   }
   const auto others = static_cast<std::size_t>(
       std::ranges::count_if(m_robots, [](const Robot& robot) { return !hasOwnPlace(robot.key); }));
   if (!hasOwnPlace(key) && others >= MonitorOptions::otherRobots) return nullptr;
-  Robot robot;
+  Robot& robot = m_robots.emplace_back();
+  robot.uid = uid;
   robot.key = key;
   robot.sender = sender;
-  robot.name = nameOf(m_options, key);
-  robot.hasBoard = m_options.boards.contains(key);
-  robot.link = m_sink->addGroup(linkGroup(robot.name, orderOf(key, m_options.teams)));
-  m_robots.push_back(std::move(robot));
-  return &m_robots.back();
+  setOptions(m_options);
+  robot.link = m_sink->addGroup(linkOf(robot));
+  return &robot;
 }
 
 /// Returns the index of the column with this name, which is added if the limit allows it.
@@ -203,17 +221,28 @@ bool LiveRows::describe(Robot& robot, const Profile& profile) {
 }
 
 GroupInfo LiveRows::groupOf(const Robot& robot) const {
-  GroupInfo group{robot.groupName(),
+  GroupInfo group{robot.hasBoard ? robot.name + " telemetry" : robot.name,
                   robot.columns,
-                  {{"number", std::to_string(robot.key.number)},
-                   {"sender", robot.sender.address.text()},
-                   {"live", "1"}}};
-  if (const auto colour = link::colourAt(robot.key.team, m_options.teams)) {
-    group.attributes["team"] = info(*colour).name;
-  }
-  if (robot.hasBoard) group.attributes["link"] = robot.name;
-  setOrder(group, orderOf(robot.key, m_options.teams));
-  if (m_options.attributes) group.attributes.merge(m_options.attributes(robot.key));
+                  robot.facts,
+                  {},
+                  groupId(robot.uid, RobotRows::Messages)};
+  group.robot->uid = robot.uid;
+  group.robot->number = robot.key.number;
+  group.robot->sender = robot.sender.address.text();
+  group.robot->live = true;
+  if (robot.hasBoard) group.robot->linkOf = robot.name;
+  return group;
+}
+
+GroupInfo LiveRows::linkOf(const Robot& robot) const {
+  GroupInfo group{robot.name + " link",
+                  linkColumns(),
+                  telemetry::RobotFacts{},
+                  {},
+                  groupId(robot.uid, RobotRows::Link)};
+  group.robot->uid = robot.uid;
+  group.robot->linkOf = robot.name;
+  group.robot->order = robot.facts.order;
   return group;
 }
 
@@ -267,24 +296,23 @@ void LiveRows::take(const DatagramView& datagram, const DecodedText& decoded,
   if (changed) addGroups(*robot);
   // Of two ports the later message may be read first.
   robot->lastTime = std::max(robot->lastTime, timeOf(datagram.time));
-  m_newest = std::max(m_newest, robot->lastTime);
   m_sink->append(robot->group, {robot->lastTime, {}, robot->values});
 }
 
 void LiveRows::report(const TeamStatus& status) {
   const double now = timeOf(status.time);
   for (const RobotStatus& received : status.robots) {
-    const auto robot = std::ranges::find(m_robots, received.key, &Robot::key);
+    const auto robot = std::ranges::find_if(
+        m_robots, [&](const Robot& known) { return !known.isGone && known.key == received.key; });
     if (robot == m_robots.end()) continue;  // nothing of it could be used yet
     const bool wasTimedOut = std::exchange(robot->timedOut, received.timedOut);
     if (received.timedOut && wasTimedOut) continue;
     const bool due = now >= robot->lastHealth + healthPeriod - reportSlack;
     if (!due && received.timedOut == wasTimedOut) continue;
     robot->lastHealth = std::max(robot->lastHealth, now);
-    m_newest = std::max(m_newest, robot->lastHealth);
     const auto values = healthValues(received);
     m_sink->append(robot->link, {robot->lastHealth, {}, values});
   }
 }
 
-}  // namespace pitchboard::telemetry
+}  // namespace pitchboard::link

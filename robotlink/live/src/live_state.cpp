@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <base/option_json.h>
 #include <robotlink/live/live_teams.h>
 #include <telemetry/wire/base64.h>
 #include <telemetry/wire/lenient_json.h>
@@ -21,7 +22,6 @@ using telemetry::WallTime;
 
 namespace lenient = telemetry::lenient;
 using lenient::each;
-using lenient::flag;
 using lenient::member;
 using lenient::number;
 using lenient::whole;
@@ -40,24 +40,31 @@ std::optional<telemetry::TeamSetup> teamFrom(const Json& json) {
 }
 
 Json optionsJson(const LiveOptions& options) {
-  const std::string ours(options.ourColour ? info(*options.ourColour).name : "");
-  const telemetry::BatteryLimits& battery = options.team.battery;
   Json teams = Json::array();
   for (const telemetry::TeamSetup& team : options.team.teams) teams.push_back(teamJson(team));
-  return Json{{"profile", telemetry::profileText(options.profile)},
-              {"teams", std::move(teams)},
-              {"field", options.field.name},
-              {"ourTeam", options.ourTeam},
-              {"refereeVersion", options.refereeVersion},
-              {"ourColour", ours},
-              {"colourByNumber", options.colourByNumber},
-              {"timeout", options.team.timeout.count()},
-              {"duplicateWindow", options.team.duplicateWindow.count()},
-              {"battery",
-               {{"cells", battery.cells},
-                {"full", battery.fullPerCell},
-                {"low", battery.lowPerCell},
-                {"empty", battery.emptyPerCell}}}};
+  Json json{{"profile", telemetry::profileText(options.profile)},
+            {"teams", std::move(teams)},
+            {"duplicateWindow", options.team.duplicateWindow.count()}};
+  writeOptions<Json, LiveOptions>(json, liveOptionTable(), options);
+  return json;
+}
+
+/// Options as they were written up to version 0.22.
+Json presentForm(Json json) {
+  if (const Json* ours = member(json, "ourTeam"); ours && ours->is_number_integer()) {
+    const std::string colour = lenient::text(json, "ourColour");
+    json["ourTeam"] = colour.empty() ? std::to_string(whole<int>(json, "ourTeam")) : colour;
+  }
+  if (const Json* timeout = member(json, "timeout"); timeout && timeout->is_number_integer()) {
+    json["timeout"] = telemetry::secondsOf(Duration(whole<std::int64_t>(json, "timeout")));
+  }
+  const Json battery = json.value("battery", Json());
+  for (const auto& [before, now] :
+       {std::pair("cells", "cells"), std::pair("full", "fullPerCell"),
+        std::pair("low", "lowPerCell"), std::pair("empty", "emptyPerCell")}) {
+    if (battery.is_object() && battery.contains(before)) json[now] = battery[before];
+  }
+  return json;
 }
 
 /// What is missing, or cannot be, keeps its default.
@@ -66,33 +73,48 @@ LiveOptions optionsFrom(const Json& json) {
   if (const std::string profile = lenient::text(json, "profile"); !profile.empty()) {
     if (auto read = telemetry::parseProfile(profile, "profile")) options.profile = *read;
   }
-  each(json, "teams", telemetry::TeamSetup::mostTeams, [&](std::size_t, const Json& team) {
+  each(json, "teams", telemetry::TeamSetup::maxTeams, [&](std::size_t, const Json& team) {
     // A place without a team would give its robots to the next one.
     auto read = team.is_object() ? teamFrom(team) : std::nullopt;
     options.team.teams.push_back(read ? std::move(*read) : telemetry::TeamSetup{});
   });
-  if (auto field = sim::fieldByName(lenient::text(json, "field"))) options.field = *field;
-  options.ourTeam = whole<int>(json, "ourTeam");
-  options.refereeVersion = whole<int>(json, "refereeVersion");
-  options.ourColour = teamColorNamed(lenient::text(json, "ourColour"));
-  options.colourByNumber = flag(json, "colourByNumber");
-  options.team.timeout = Duration(whole(json, "timeout", options.team.timeout.count()));
   options.team.duplicateWindow =
       Duration(whole(json, "duplicateWindow", options.team.duplicateWindow.count()));
-  if (const Json* limits = member(json, "battery"); limits && limits->is_object()) {
-    telemetry::BatteryLimits battery = options.team.battery;
-    battery.cells = std::clamp(whole(*limits, "cells", battery.cells), 0, 1000);
-    battery.fullPerCell = number(*limits, "full").value_or(battery.fullPerCell);
-    battery.lowPerCell = number(*limits, "low").value_or(battery.lowPerCell);
-    battery.emptyPerCell = number(*limits, "empty").value_or(battery.emptyPerCell);
-    constexpr double least = 0.05, most = 100.0;  // V of a cell
-    const bool possible = battery.emptyPerCell >= 0.0 &&
-                          battery.lowPerCell > battery.emptyPerCell &&
-                          battery.fullPerCell > battery.lowPerCell &&
-                          battery.fullPerCell >= least && battery.fullPerCell <= most;
-    if (possible) options.team.battery = battery;
-  }
+  readOptions(presentForm(json), liveOptionTable(), options);
+  if (!isPossible(options.team.battery)) options.team.battery = LiveOptions().team.battery;
   return options;
+}
+
+Json uidsJson(const RobotUids& uids) {
+  Json robots = Json::array();
+  for (const RobotUids::Known& known : uids.known()) {
+    Json& one = robots.emplace_back(Json{{"uid", known.uid.value},
+                                         {"number", known.number},
+                                         {"team", known.place},
+                                         {"address", known.sender.value},
+                                         {"variables", known.sendsVariables}});
+    if (known.key) one["sender"] = known.key->sender;
+  }
+  return robots;
+}
+
+/// Returns null if a session before 0.23 kept none.
+std::shared_ptr<RobotUids> uidsFrom(const Json& json) {
+  const Json* kept = member(json, "uids");
+  if (kept == nullptr || !kept->is_array()) return nullptr;
+  std::vector<RobotUids::Known> all;
+  each(json, "uids", RobotUids::maxRobots, [&all](std::size_t, const Json& one) {
+    if (!one.is_object()) return;
+    RobotUids::Known& known = all.emplace_back();
+    known.uid = {whole<std::uint32_t>(one, "uid")};
+    known.number = whole<int>(one, "number");
+    known.place = whole<int>(one, "team");
+    known.sender = {whole<std::uint32_t>(one, "address")};
+    known.sendsVariables = lenient::flag(one, "variables");
+    if (member(one, "sender") == nullptr) return;
+    known.key = RobotKey{known.place, known.number, whole<int>(one, "sender")};
+  });
+  return std::make_shared<RobotUids>(std::move(all));
 }
 
 }  // namespace
@@ -103,19 +125,35 @@ LiveState::LiveState(const LiveOptions& options)
 telemetry::RefereeTracker::Options LiveState::refereeOptions(const LiveOptions& options) {
   telemetry::RefereeTracker::Options made;
   made.version = options.refereeVersion;
+  made.prefersReal = true;
   return made;
 }
 
 void LiveState::setTeams(const telemetry::MonitorOptions& options) {
   monitor.setOptions(options);
+  followKeys();
+}
+
+/// The monitor may have given robots other keys.
+void LiveState::followKeys() {
+  if (monitor.renamings().empty()) return;
   drawings.rename(monitor.renamings());
+  if (uids) uids->rename(monitor.renamings());
+}
+
+void LiveState::forget(const RobotKey& robot) {
+  monitor.forget(robot);
+  followKeys();
 }
 
 std::optional<telemetry::TeamMonitor::Verdict> LiveState::takeRobot(
     const telemetry::DatagramView& datagram, double time) {
   const auto take = [this](const telemetry::DatagramView& message) {
     const auto verdict = monitor.take(message);
-    if (!monitor.renamings().empty()) drawings.rename(monitor.renamings());
+    followKeys();
+    if (uids && verdict == telemetry::TeamMonitor::Verdict::Used) {
+      uids->ofMessages(monitor.used(), message.sender.address);
+    }
     return verdict;
   };
   lastDrawer.reset();
@@ -134,14 +172,27 @@ std::optional<telemetry::TeamMonitor::Verdict> LiveState::takeRobot(
   return take(message);
 }
 
-void LiveState::clear(const LiveOptions& options) {
-  monitor.clear();
-  drawings.clear();
+void LiveState::forgetSimulated(const LiveOptions& options) {
+  for (const telemetry::RobotStatus& robot : monitor.status({}).robots) {
+    if (robot.key.team == telemetry::simulatedTeam) forget(robot.key);
+  }
+  if (referee.sender() && telemetry::isSimulated(referee.sender()->address)) forgetReferee(options);
+}
+
+void LiveState::forgetReferee(const LiveOptions& options) {
   referee = telemetry::RefereeTracker(refereeOptions(options));
+  m_former.reset();
   m_shown.reset();
+  m_late.reset();
   m_other.reset();
   m_trueData.reset();
   m_replies.clear();
+}
+
+void LiveState::clear(const LiveOptions& options) {
+  monitor.clear();
+  drawings.clear();
+  forgetReferee(options);
 }
 
 void LiveState::takeReferee(const telemetry::RefereePacket& packet,
@@ -156,16 +207,35 @@ void LiveState::takeReferee(const telemetry::RefereePacket& packet,
     }
   };
   if (const auto* state = std::get_if<RefereeState>(&packet)) {
-    const bool shown = referee.accept(*state, datagram.sender, datagram.time);
-    // Of packets that are not shown, only another referee's leaves something behind.
-    const bool other = referee.sender() && referee.sender()->address != datagram.sender.address;
-    if (state->trueData()) {
-      m_trueData = kept();
-    } else if (shown) {
-      m_shown = kept();
-    } else if (other) {
-      m_other = kept();
+    using Verdict = telemetry::RefereeTracker::Verdict;
+    const std::optional<telemetry::Sender> before = referee.sender();
+    switch (referee.accept(*state, datagram.sender, datagram.time)) {
+      case Verdict::TrueData:
+        m_trueData = kept();
+        break;
+      case Verdict::Shown:
+        if (before && before->address != datagram.sender.address) m_former.reset();
+        if (before && before->address == datagram.sender.address &&
+            before->port != datagram.sender.port) {
+          m_former = m_shown;
+        }
+        m_shown = kept();
+        break;
+      case Verdict::Repeated:
+        m_shown = kept();
+        break;
+      case Verdict::OtherSender:
+        m_other = kept();
+        break;
+      case Verdict::Late:
+        if (referee.lateSince() == datagram.time) m_late = kept();
+        break;
+      case Verdict::Compatibility:
+      case Verdict::Simulated:
+      case Verdict::OtherVersion:
+        break;  // leave nothing behind
     }
+    if (!referee.lateSince()) m_late.reset();
   } else if (const auto* answer = std::get_if<telemetry::RobotReply>(&packet)) {
     reply(*answer, datagram.sender.address);
   } else if (const auto* forwarded = std::get_if<telemetry::ForwardedReply>(&packet)) {
@@ -176,19 +246,23 @@ void LiveState::takeReferee(const telemetry::RefereePacket& packet,
 MatchFrame LiveState::frame(const LiveOptions& options, const telemetry::TeamStatus& team,
                             double time) const {
   MatchFrame frame = liveFrame(options, team, referee, time);
+  for (RobotFrame& robot : frame.robots) {
+    robot.uid = uids ? uids->withKey(robot.key) : uidOf(robot.key);
+  }
   frame.drawings = drawings.at(time);
   frame.drawingProblem = drawings.lastProblem();
   return frame;
 }
 
 Teams LiveState::teams(const LiveOptions& options) const {
-  return teamsOf(options, referee.state() ? &*referee.state() : nullptr);
+  return teamsOf(options, referee.game());
 }
 
 std::string LiveState::text(const LiveOptions& options, double time, WallTime zero) const {
   Json json{{"time", time}, {"options", optionsJson(options)}};
   // Its own text, not an object in here: the monitor's form is the monitor's.
   json["robots"] = monitor.robotsText(zero);
+  if (uids) json["uids"] = uidsJson(*uids);
   for (const auto& [received, place, drawn] : drawings.pages(time)) {
     json["drawings"].push_back(Json{{"at", received}, {"team", place}, {"text", drawn}});
   }
@@ -200,7 +274,7 @@ std::string LiveState::text(const LiveOptions& options, double time, WallTime ze
                            {"localPort", kept.localPort},
                            {"base64", telemetry::toBase64(kept.payload)}});
   };
-  for (const std::optional<Kept>* kept : {&m_shown, &m_trueData, &m_other}) {
+  for (const std::optional<Kept>* kept : {&m_former, &m_shown, &m_late, &m_trueData, &m_other}) {
     if (*kept) put(**kept);
   }
   for (const auto& [robot, kept] : m_replies) put(kept);
@@ -215,12 +289,13 @@ Result<LiveState::Read> LiveState::read(std::string_view bytes, WallTime zero) {
   }
   LiveOptions known = optionsFrom(*options);
   Read out{known, LiveState(known)};
+  out.state.uids = uidsFrom(json);
   if (auto done = out.state.monitor.restoreRobots(lenient::text(json, "robots"), zero); !done) {
     return tl::unexpected(done.error());
   }
-  constexpr std::size_t mostPages =
+  constexpr std::size_t maxPages =
       telemetry::DrawingLimits::robots * telemetry::DrawingLimits::layers;
-  each(json, "drawings", mostPages, [&](std::size_t, const Json& page) {
+  each(json, "drawings", maxPages, [&](std::size_t, const Json& page) {
     if (!page.is_object()) return;
     auto drawing = telemetry::parseDrawing(lenient::text(page, "text"));
     if (!drawing) return;
@@ -232,8 +307,8 @@ Result<LiveState::Read> LiveState::read(std::string_view bytes, WallTime zero) {
     }
     (void)out.state.drawings.take(std::move(*drawing), number(page, "at").value_or(0.0), team);
   });
-  constexpr std::size_t mostPackets = telemetry::RefereeTracker::maxReplies + 3;
-  each(json, "referee", mostPackets, [&](std::size_t, const Json& packet) {
+  constexpr std::size_t maxPackets = telemetry::RefereeTracker::maxReplies + 5;
+  each(json, "referee", maxPackets, [&](std::size_t, const Json& packet) {
     if (!packet.is_object()) return;
     const auto payload = telemetry::fromBase64(lenient::text(packet, "base64"));
     if (!payload) return;

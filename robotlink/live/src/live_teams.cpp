@@ -7,7 +7,6 @@
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/models/robot_models.h>
-#include <telemetry/wire/gamecontroller.h>
 
 #include "live_frame.h"
 
@@ -50,37 +49,37 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options) {
 }
 
 Result<void> chooseOurTeam(LiveOptions& options, std::string_view text) {
-  constexpr int mostNumber = 65535;
+  constexpr int maxNumber = 65535;
   options.ourColour = teamColorNamed(text);
   options.ourTeam = 0;
   if (options.ourColour) return {};
   const char* const end = text.data() + text.size();
   const auto read = std::from_chars(text.data(), end, options.ourTeam);
   if (read.ec == std::errc() && read.ptr == end && options.ourTeam >= 0 &&
-      options.ourTeam <= mostNumber) {
+      options.ourTeam <= maxNumber) {
     return {};
   }
   return failure(ErrorCode::InvalidArgument,
                  "Our team is a number from 0 to 65535 or a colour such as blue or red.",
-                 "--our-team " + std::string(text));
+                 "\"" + std::string(text.substr(0, 40)) + "\"");
 }
 
-int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee) {
-  if (options.ourTeam != 0 || !options.ourColour || referee == nullptr) return options.ourTeam;
-  for (const telemetry::RefereeTeam& team : referee->teams) {
-    if (teamColorNamed(telemetry::colourLabel(team.colour)) == options.ourColour)
-      return team.number;
+int ourNumber(const LiveOptions& options, const std::optional<Game>& game) {
+  if (options.ourTeam != 0 || !options.ourColour || !game) return options.ourTeam;
+  for (const GameTeam& team : game->teams) {
+    if (team.colour == options.ourColour) return team.number;
   }
   return 0;
 }
 
-Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee) {
-  const auto colourFromReferee = [referee](int number) -> std::optional<TeamColor> {
-    const auto* team = referee != nullptr && number > 0 ? referee->team(number) : nullptr;
-    return team == nullptr ? std::nullopt : teamColorNamed(telemetry::colourLabel(team->colour));
+Teams teamsOf(const LiveOptions& options, const std::optional<Game>& game) {
+  const auto colourFromReferee = [&game](int number) -> std::optional<TeamColor> {
+    const int team = game && number > 0 ? game->teamNumbered(number) : Game::noTeam;
+    if (team == Game::noTeam) return {};
+    return robotColor(game->teams[static_cast<std::size_t>(team)].colour);
   };
   const std::vector<TeamSetup>& setups = options.team.teams;
-  const int chosen = ourNumber(options, referee);
+  const int chosen = ourNumber(options, game);
   // The team that was chosen, else the first one.
   auto ours = setups.end();
   if (chosen != 0) ours = std::ranges::find(setups, chosen, &TeamSetup::number);
@@ -121,18 +120,15 @@ std::string ownNameOf(const LiveOptions& options, const RobotKey& robot) {
   return found == setup->robots.end() ? std::string() : found->second;
 }
 
-telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
-                                       telemetry::WallTime zero,
-                                       std::map<RobotKey, std::string> boards) {
-  telemetry::LiveRowsOptions made{zero, std::move(teams), {}, std::move(boards)};
-  made.attributes = [options](const RobotKey& robot) {
+LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams, telemetry::WallTime zero,
+                            std::map<RobotUid, std::string> boards) {
+  LiveRowsOptions made{zero, std::move(teams), {}, std::move(boards)};
+  made.describe = [options](const RobotKey& robot, telemetry::RobotFacts& facts) {
     const TeamSetup* setup = setupOf(options, robot);
-    std::map<std::string, std::string> more{
-        {"profile", setup != nullptr ? setup->profile.name : options.profile.name}};
-    if (setup == nullptr) return more;
-    more["team_name"] = setup->title();
-    if (const std::string own = ownNameOf(options, robot); !own.empty()) more["name"] = own;
-    return more;
+    facts.profile = setup != nullptr ? setup->profile.name : options.profile.name;
+    if (setup == nullptr) return;
+    facts.teamName = setup->title();
+    facts.name = ownNameOf(options, robot);
   };
   return made;
 }

@@ -2,12 +2,13 @@
 #include <robotlink/live/live_watch.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <latch>
 #include <mutex>
 #include <thread>
+#include <utility>
 
-#include <base/try.h>
 #include <robotlink/live/live_pipeline.h>
-#include <robotlink/models/robot_models.h>
 
 namespace pitchboard::link {
 namespace {
@@ -25,6 +26,7 @@ telemetry::ReceiverOptions receiverOptions(
     const LiveOptions& options, const std::shared_ptr<const telemetry::LiveClock>& clock) {
   telemetry::ReceiverOptions made;
   made.bind = options.bind;
+  made.yieldsToFirst = true;
   made.clock = clock;
   made.ports = portsOf(options).value_or(std::vector<std::uint16_t>{});
   return made;
@@ -32,49 +34,8 @@ telemetry::ReceiverOptions receiverOptions(
 
 }  // namespace
 
-Result<std::vector<std::uint16_t>> portsOf(const LiveOptions& options) {
-  auto ports = TRY(telemetry::teamPorts(options.team.teams, options.portBase, options.robots,
-                                        options.refereePort));
-  if (options.monitor) ports.push_back(telemetry::robotStatesPort);
-  if (options.variablesPortBase == 0) return ports;
-  for (int port = options.variablesPortBase + 1; port <= options.variablesPortBase + options.robots;
-       ++port) {
-    if (port < 1 || port > 65535) {
-      return failure(ErrorCode::InvalidArgument,
-                     "Robots' variables need the UDP ports " +
-                         std::to_string(options.variablesPortBase + 1) + " to " +
-                         std::to_string(options.variablesPortBase + options.robots) +
-                         "; choose a base from 1 to " + std::to_string(65535 - options.robots) +
-                         ", or 0 for none.");
-    }
-    const auto number = static_cast<std::uint16_t>(port);
-    if (std::ranges::find(ports, number) != ports.end()) {
-      return failure(ErrorCode::InvalidArgument,
-                     "UDP " + std::to_string(port) +
-                         " cannot be both a port of robots' variables and of messages; choose "
-                         "another base.");
-    }
-    ports.push_back(number);
-  }
-  return ports;
-}
-
-Result<void> validate(const LiveOptions& options) {
-  TRY(portsOf(options));
-  for (const std::string& file : options.catalogs) TRY(VariableCatalog::fromFile(file));
-  TRY(telemetry::validate(options.profile));
-  for (const telemetry::TeamSetup& team : options.team.teams) {
-    if (team.model.empty()) continue;
-    if (auto model = loadRobotModel(team.model); !model) {
-      Error error = model.error();
-      error.context = team.title() + ", model";
-      return tl::unexpected(std::move(error));
-    }
-  }
-  TRY(validate(options.boards));
-  return sim::validate(options.field);
-}
-
+/// The thread owns the pipeline. What others want of it are requests, and what it tells them is
+/// published after each frame; the mutex is held for neither.
 struct LiveWatch::Impl {
   Impl(LiveOptions o, std::function<void()> ready, telemetry::ClockSource source)
       : clock(std::make_shared<const telemetry::LiveClock>(std::move(source))),
@@ -83,58 +44,89 @@ struct LiveWatch::Impl {
     boards.set(options.boards);
   }
 
-  void listen() {
+  // Any thread.
+  void request(std::function<void()> work) {
     {
       const std::lock_guard lock(mutex);
-      receiver.reset();  // its ports may be wanted again
+      requests.push_back(std::move(work));
     }
-    auto started = telemetry::UdpReceiver::start(receiverOptions(options, clock));
-    const std::lock_guard lock(mutex);
+    come.notify_one();
+  }
+
+  // What follows is called on the thread only.
+  void listen() {
+    receiver.reset();  // its ports may be wanted again
+    const auto noteArrival = [this] {
+      {
+        const std::lock_guard lock(mutex);
+        arrived = true;
+      }
+      come.notify_one();
+    };
+    auto started = telemetry::UdpReceiver::start(receiverOptions(options, clock), noteArrival);
     networkProblem = started ? std::string() : started.error().text();
     if (started) receiver = std::move(*started);
   }
 
-  void adoptOptions() {
-    std::unique_lock lock(mutex);
-    if (!pending) return;
-    const LiveOptions old = options;
-    pipeline.setOptions(std::move(*pending), clock->now());
-    pending.reset();
+  void setOptions(LiveOptions changed) {
+    const auto before = receiverOptions(options, clock);
+    pipeline.setOptions(std::move(changed), clock->now());
     boards.set(options.boards);
     monitorProblem.clear();
-    const auto before = receiverOptions(old, clock), after = receiverOptions(options, clock);
-    if (before.ports == after.ports && before.bind == after.bind && receiver) return;
-    lock.unlock();
-    listen();
-  }
-
-  void forget() {
-    const std::lock_guard lock(mutex);
-    for (const RobotKey& robot : std::exchange(forgetAsked, {})) {
-      pipeline.forget(robot, clock->now());
+    const auto after = receiverOptions(options, clock);
+    if (before.ports != after.ports || before.bind != after.bind || !receiver) {
+      batch.clear();  // of ports that may mean something else now
+      listen();
     }
-    if (std::exchange(clearAsked, false)) pipeline.clear(clock->now());
   }
 
-  void takeAll(const DatagramBatch& batch) {
-    const std::lock_guard lock(mutex);
+  void runRequests() {
+    std::vector<std::function<void()>> all;
+    {
+      const std::lock_guard lock(mutex);
+      all = std::exchange(requests, {});
+    }
+    for (const auto& one : all) one();
+  }
+
+  void wait(telemetry::Duration most) {
+    std::unique_lock lock(mutex);
+    come.wait_for(lock, most, [this] { return arrived || isEnding || !requests.empty(); });
+    arrived = false;
+  }
+
+  void takeAll() {
     for (std::size_t i = 0; i < batch.size(); ++i) pipeline.take(batch[i]);
+    batch.clear();
   }
 
-  /// The mutex is held.
   void makeFrame() {
-    newest = std::make_shared<const MatchFrame>(pipeline.frame(clock->now(), &boards));
-    pipeline.noticeClock(clock->setBy(), newest->snapshot.time);
-  }
-
-  void makeNextFrame(Steady::time_point now) {
-    const std::lock_guard lock(mutex);
-    makeFrame();
+    auto frame = std::make_shared<const MatchFrame>(pipeline.advance(clock->now(), &boards));
+    pipeline.noticeClock(clock->setBy(), frame->snapshot.time);
+    const auto now = Steady::now();
     if (receiver && now >= nextPorts) {
       nextPorts = now + portsPeriod;
-      pipeline.noticePorts(receiver->status(), newest->snapshot.time);
+      pipeline.noticePorts(receiver->status(), frame->snapshot.time);
     }
-    if (!std::exchange(announced, true) && onFrame) onFrame();
+    publish(std::move(frame));
+  }
+
+  void publish(std::shared_ptr<const MatchFrame> frame) {
+    auto all = std::make_shared<LiveDetails>(pipeline.details(clock->now()));
+    if (receiver) all->network = receiver->status();
+    all->sharedPorts = pipeline.sharedPorts(all->network);
+    all->networkProblem = networkProblem;
+    all->boards = boards.status();
+    all->monitorProblem = monitorProblem;
+    LiveNews made = pipeline.drainNews();
+    {
+      const std::lock_guard lock(mutex);
+      details = std::move(all);
+      news.add(std::move(made.events));
+      if (frame) news.frame = std::move(frame);
+      if (!news.frame || std::exchange(announced, true)) return;
+    }
+    if (onFrame) onFrame();
   }
 
   /// Only this sends, only to the referee, only while it is turned on.
@@ -142,53 +134,55 @@ struct LiveWatch::Impl {
     if (!options.monitor || now < nextRequest) return;
     nextRequest = now + 1s;
     const auto sent = telemetry::sendMonitorRequest(*options.monitor, options.monitorPort);
-    const std::lock_guard lock(mutex);
     monitorProblem = sent ? std::string() : sent.error().text();
   }
 
   void run(const std::stop_token& stop) {
     listen();
-    DatagramBatch batch;
+    publish(nullptr);
     auto last = Steady::now() - idlePeriod;
     bool fresh = true;
     while (!stop.stop_requested()) {
-      adoptOptions();
-      forget();
-      const auto due = last + (fresh ? framePeriod : idlePeriod);
-      const auto wait = std::max<telemetry::Duration>(due - Steady::now(), 0ns);
-      if (!receiver) {
-        std::this_thread::sleep_for(wait);
-      } else if (receiver->take(batch, wait)) {
-        takeAll(batch);
+      wait(std::max<telemetry::Duration>(last + (fresh ? framePeriod : idlePeriod) - Steady::now(),
+                                         0ns));
+      // The batch first: an observer that was added before a datagram was sent is told of it.
+      if (receiver) receiver->take(batch);
+      runRequests();
+      if (batch.size() > 0) {
         fresh = true;
+        const bool many = batch.size() >= flood;
+        takeAll();
         // In a flood every datagram would wake this thread; a millisecond gathers many.
-        if (batch.size() >= flood) std::this_thread::sleep_for(1ms);
+        if (many) std::this_thread::sleep_for(1ms);
       }
       const auto now = Steady::now();
       askReferee(now);
       if (now < last + (fresh ? framePeriod : idlePeriod)) continue;
       last = now;
       fresh = false;
-      makeNextFrame(now);
+      makeFrame();
     }
   }
 
   const std::shared_ptr<const telemetry::LiveClock> clock;
   const std::function<void()> onFrame;
-  std::unique_ptr<telemetry::UdpReceiver> receiver;
-  Steady::time_point nextRequest{}, nextPorts{};
-
-  mutable std::mutex mutex;  // guards everything below, and changes of `receiver`
   LivePipeline pipeline;
-  const LiveOptions& options = pipeline.options();  // changed by the thread only
-  std::optional<LiveOptions> pending;
-  bool clearAsked = false;
-  std::vector<RobotKey> forgetAsked;
+  const LiveOptions& options = pipeline.options();
+  DatagramBatch batch;
   AttachedRobots boards{[clock = clock] { return clock->seconds(clock->now()); }};
   std::string networkProblem, monitorProblem;
-  std::shared_ptr<const MatchFrame> newest;
+  Steady::time_point nextRequest{}, nextPorts{};
+
+  mutable std::mutex mutex;  // guards what follows, up to the receiver
+  std::condition_variable come;
+  std::vector<std::function<void()>> requests;
+  bool arrived = false, isEnding = false;
+  LiveNews news;
   bool announced = false;
-  std::jthread thread;  // last: it uses all of the above
+  std::shared_ptr<const LiveDetails> details = std::make_shared<LiveDetails>();
+
+  std::unique_ptr<telemetry::UdpReceiver> receiver;  // its thread uses the above
+  std::jthread thread;                               // last: it uses all of the above
 };
 
 LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame,
@@ -200,40 +194,42 @@ LiveWatch::LiveWatch(LiveOptions options, std::function<void()> onFrame,
 
 LiveWatch::~LiveWatch() {
   m_impl->thread.request_stop();
+  {
+    const std::lock_guard lock(m_impl->mutex);
+    m_impl->isEnding = true;
+  }
+  m_impl->come.notify_one();
   m_impl->thread.join();
 }
 
 void LiveWatch::setOptions(LiveOptions options) {
-  const std::lock_guard lock(m_impl->mutex);
-  m_impl->pending = std::move(options);
+  m_impl->request([impl = m_impl.get(), options = std::move(options)]() mutable {
+    impl->setOptions(std::move(options));
+  });
 }
 
 void LiveWatch::clear() {
-  const std::lock_guard lock(m_impl->mutex);
-  m_impl->clearAsked = true;
+  m_impl->request([impl = m_impl.get()] { impl->pipeline.clear(impl->clock->now()); });
 }
 
-void LiveWatch::forget(const RobotKey& robot) {
-  const std::lock_guard lock(m_impl->mutex);
-  m_impl->forgetAsked.push_back(robot);
+void LiveWatch::forget(RobotUid robot) {
+  m_impl->request(
+      [impl = m_impl.get(), robot] { impl->pipeline.forget(robot, impl->clock->now()); });
 }
 
 LiveNews LiveWatch::take() {
   const std::lock_guard lock(m_impl->mutex);
   m_impl->announced = false;
-  LiveNews news = m_impl->pipeline.takeNews();
-  news.frame = m_impl->newest;
+  LiveNews news = std::exchange(m_impl->news, {});
+  m_impl->news.frame = news.frame;
   return news;
 }
 
 LiveDetails LiveWatch::details() const {
-  const std::lock_guard lock(m_impl->mutex);
-  LiveDetails details = m_impl->pipeline.details(m_impl->clock->now());
-  if (m_impl->receiver) details.network = m_impl->receiver->status();
-  details.networkProblem = m_impl->networkProblem;
-  details.boards = m_impl->boards.status();
-  details.monitorProblem = m_impl->monitorProblem;
-  return details;
+  std::unique_lock lock(m_impl->mutex);
+  const std::shared_ptr<const LiveDetails> details = m_impl->details;
+  lock.unlock();
+  return *details;
 }
 
 telemetry::WallTime LiveWatch::began() const {
@@ -241,15 +237,21 @@ telemetry::WallTime LiveWatch::began() const {
 }
 
 void LiveWatch::observe(std::shared_ptr<LiveObserver> observer) {
-  const std::lock_guard lock(m_impl->mutex);
-  m_impl->pipeline.observe(std::move(observer), m_impl->clock->now());
+  m_impl->request([impl = m_impl.get(), observer = std::move(observer)] {
+    impl->pipeline.observe(observer, impl->clock->now());
+  });
 }
 
 void LiveWatch::stopObserving(const std::shared_ptr<LiveObserver>& observer) {
-  const std::lock_guard lock(m_impl->mutex);
-  // Rows of variables wait for the next frame; those that have come belong to the observer.
-  m_impl->makeFrame();
-  m_impl->pipeline.stopObserving(observer);
+  std::latch done(1);
+  m_impl->request([impl = m_impl.get(), &observer, &done] {
+    // What has come belongs to the observer; rows of variables wait for the next frame.
+    impl->takeAll();
+    impl->makeFrame();
+    impl->pipeline.stopObserving(observer);
+    done.count_down();
+  });
+  done.wait();
 }
 
 }  // namespace pitchboard::link

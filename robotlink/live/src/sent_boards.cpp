@@ -24,10 +24,8 @@ using telemetry::Duration;
 using telemetry::SequenceStats;
 using telemetry::WallTime;
 
-constexpr std::size_t mostSentRows = 4096;  // waiting; older ones are lost
-// ms: how long a sender takes to send everything once, unless it says so itself.
-constexpr std::int64_t usualRefresh = 2000, longestRefresh = 30'000;
-constexpr std::int64_t mostDisorder = 10'000;  // ms; a clock further back is another one
+constexpr std::size_t maxSentRows = 4096;     // waiting; older ones are lost
+constexpr std::int64_t maxDisorder = 10'000;  // ms; a clock further back is another one
 
 bool isNewer(std::uint32_t sequence, std::uint32_t than) {
   return static_cast<std::int32_t>(sequence - than) > 0;
@@ -42,6 +40,19 @@ std::uint32_t wordOf(double value, bool isInt) {
       static_cast<std::int32_t>(std::clamp(std::round(value), least, most)));
 }
 
+/// What BoardColumns makes of it, for a column that not every row has.
+telemetry::ColumnInfo lateColumn(const std::string& name, const Variable* variable) {
+  telemetry::ColumnInfo column;
+  if (variable != nullptr) {
+    column = BoardColumns(std::span(variable, 1)).columns().front();
+    column.type = telemetry::ColumnType::Float64;
+    return column;
+  }
+  column.name = name;
+  VariableMeanings::published().describe(column);
+  return column;
+}
+
 }  // namespace
 
 struct SentBoards::Robot {
@@ -49,16 +60,17 @@ struct SentBoards::Robot {
     double value = 0.0;
     std::uint32_t sequence = 0;  // of the datagram that it came with
     bool hasColumn = false;
+    std::optional<double> absent{};  // the value that means "not seen"
   };
   using Values = std::map<std::string, Value, std::less<>>;
 
   int number = 0, place = 0;
-  std::string name;  // of the group
+  RobotUid uid;
   telemetry::Sender sender;
   SequenceStats sequence{32};
   telemetry::ArrivalStats arrivals;
   telemetry::ClockMap clock;
-  WallTime first{}, last{};
+  WallTime last{};
   std::uint64_t messages = 0, bytes = 0, restarts = 0, refused = 0;
   std::uint32_t newest = 0;          // sequence
   std::uint64_t newestSent = 0;      // ms
@@ -66,9 +78,10 @@ struct SentBoards::Robot {
   telemetry::Pb2Status reported;
   Values values;
 
-  // Once every variable was received.
-  telemetry::GroupInfo group;  // no columns: not yet
+  // Once a value was received.
+  telemetry::GroupInfo group;
   std::optional<BoardColumns> columns;
+  std::optional<double> firstRow;  // s; until its row is taken, it decides which columns are words
   std::vector<const Value*> words, extras;  // in the order of the columns
   BoardMeanings meanings;
   BoardRow row;  // the newest
@@ -90,7 +103,7 @@ struct SentBoards::Robot {
   }
 };
 
-SentBoards::SentBoards() {
+SentBoards::SentBoards(std::shared_ptr<RobotUids> uids) : m_uids(std::move(uids)) {
   setCatalogs({{"published", VariableCatalog::published()}});
 }
 SentBoards::~SentBoards() = default;
@@ -109,7 +122,8 @@ void SentBoards::forget(int number, telemetry::Address address) {
   });
 }
 
-SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& sender, WallTime time) {
+SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& sender, int place,
+                                       WallTime time) {
   Robot *moved = nullptr, *oldest = nullptr;
   for (const auto& robot : m_robots) {
     const bool isOffline = time - robot->last >= m_timeout;
@@ -127,10 +141,17 @@ SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& send
     moved = oldest;
   }
   if (moved == nullptr) return nullptr;
-  if (moved->name.empty()) moved->name = "sent " + std::to_string(++m_made);
+  if (moved->uid == RobotUid{}) {
+    const auto isReceived = [this](RobotUid uid) {
+      return std::ranges::any_of(m_robots, [uid](const auto& robot) { return robot->uid == uid; });
+    };
+    moved->uid = m_uids->ofVariables(number, sender.address, place, isReceived);
+  } else {
+    m_uids->move(moved->uid, sender.address);
+  }
   moved->number = number;
   moved->sender = sender;
-  if (moved->isDescribed()) moved->group.attributes["sent"] = sender.address.text();
+  if (moved->isDescribed()) moved->group.robot->sentFrom = sender.address.text();
   return moved;
 }
 
@@ -143,10 +164,14 @@ const NamedCatalog& SentBoards::catalogOf(const Robot& robot) const {
   return *std::ranges::max_element(m_catalogs, {}, known);
 }
 
-/// Variables of the catalog are words in its order, as on the blackboard. What it does not have,
-/// and what comes later, stands behind them.
+/// Variables of the catalog that come with the first sample are words in its order, as on the
+/// blackboard. What it does not have, and what comes later, stands behind them, because words
+/// cannot say that they are unknown.
 void SentBoards::describe(Robot& robot) const {
   std::vector<Variable> known;
+  robot.words.clear();
+  robot.extras.clear();
+  for (auto& [name, value] : robot.values) value.hasColumn = false;
   for (const Variable& variable : catalogOf(robot).catalog.variables()) {
     const auto value = robot.values.find(variable.name);
     if (value == robot.values.end()) continue;
@@ -156,26 +181,29 @@ void SentBoards::describe(Robot& robot) const {
   }
   robot.columns.emplace(known);
   robot.group.columns = robot.columns->columns();
-  robot.group.name = robot.name;
-  robot.group.attributes = {{"sent", robot.sender.address.text()},
-                            {"robot", std::to_string(robot.number)},
-                            {"number", std::to_string(robot.number)},
-                            {"timeout", shortest(telemetry::secondsOf(m_timeout))}};
+  robot.group.name = robot.group.id = groupId(robot.uid, RobotRows::Variables);
+  telemetry::RobotFacts& facts = robot.group.robot.emplace();
+  facts.sentFrom = robot.sender.address.text();
+  facts.uid = robot.uid;
+  facts.slot = facts.number = robot.number;
+  facts.timeout_s = telemetry::secondsOf(m_timeout);
   robot.meanings = BoardMeanings(robot.group.columns);
 }
 
 void SentBoards::append(Robot& robot, double time) const {
   const bool grows = robot.words.size() + robot.extras.size() < robot.values.size();
-  for (auto& [name, value] : robot.values) {
-    if (!grows) break;
-    if (std::exchange(value.hasColumn, true)) continue;
-    telemetry::ColumnInfo column;
-    column.name = name;
-    VariableMeanings::published().describe(column);
-    robot.group.columns.push_back(std::move(column));
-    robot.extras.push_back(&value);
+  if (grows) {
+    const VariableCatalog& catalog = catalogOf(robot).catalog;
+    for (auto& [name, value] : robot.values) {
+      if (std::exchange(value.hasColumn, true)) continue;
+      const Variable* variable = catalog.find(name);
+      robot.group.columns.push_back(lateColumn(name, variable));
+      const bool isFloat = variable != nullptr && variable->type == VariableType::Float;
+      value.absent = isFloat ? VariableMeanings::published().absent(name) : std::nullopt;
+      robot.extras.push_back(&value);
+    }
+    robot.meanings = BoardMeanings(robot.group.columns);
   }
-  if (grows) robot.meanings = BoardMeanings(robot.group.columns);
   for (BoardRow& before : robot.rows) {
     before.values.resize(robot.extras.size(), std::numeric_limits<double>::quiet_NaN());
   }
@@ -189,31 +217,35 @@ void SentBoards::append(Robot& robot, double time) const {
   }
   for (std::size_t i = 0; i < row.values.size(); ++i) row.values[i] = robot.extras[i]->value;
   robot.lamps = robot.memory.note(robot.meanings.reader(row), time);
-  // A sample that is too large for one datagram comes in several, with one time.
   if (robot.rows.empty() || robot.rows.back().time != time) {
-    if (robot.rows.size() == mostSentRows) {
-      robot.rows.erase(robot.rows.begin(), robot.rows.begin() + mostSentRows / 4);
+    if (robot.rows.size() == maxSentRows) {
+      robot.rows.erase(robot.rows.begin(), robot.rows.begin() + maxSentRows / 4);
     }
     robot.rows.emplace_back();
   }
   robot.rows.back() = row;
   robot.columns->makeHoles(robot.rows.back().words);
+  for (std::size_t i = 0; i < row.values.size(); ++i) {
+    const auto& absent = robot.extras[i]->absent;
+    if (absent && row.values[i] == *absent) {
+      robot.rows.back().values[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
 }
 
 SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
                                      const telemetry::DatagramView& datagram, int place,
                                      double arrival) {
-  Robot* const found = robotOf(message.robot, datagram.sender, datagram.time);
+  Robot* const found = robotOf(message.robot, datagram.sender, place, datagram.time);
   if (found == nullptr) return Verdict::TooManyRobots;
   Robot& robot = *found;
   const bool isFirst = robot.messages == 0;
-  if (isFirst) robot.first = datagram.time;
   robot.place = place;
   robot.bytes += datagram.payload.size();
   const auto later = static_cast<std::int64_t>(message.milliseconds - robot.newestSent);
   const bool isBehind = !isFirst && isNewer(robot.newest, message.sequence);
   // A number from before with a later time: a program that counts from 0 again.
-  if ((isBehind && later > 0) || (!isFirst && later < -mostDisorder)) {
+  if ((isBehind && later > 0) || (!isFirst && later < -maxDisorder)) {
     robot.restart(message.sequence);
   }
   const bool hasMoved = robot.sender.port != datagram.sender.port;
@@ -249,24 +281,28 @@ SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
   if (status.waiting) robot.reported.waiting = status.waiting;
   if (status.blackboard) robot.reported.blackboard = status.blackboard;
   if (message.values.empty()) return Verdict::Used;
-  if (!robot.isDescribed()) {
-    const auto refresh = std::clamp<std::int64_t>(robot.reported.refresh_ms.value_or(usualRefresh),
-                                                  usualRefresh, longestRefresh);
-    const bool hasAll = robot.values.size() >= catalogOf(robot).catalog.variables().size();
-    if (!hasAll && datagram.time - robot.first < std::chrono::milliseconds(refresh)) {
-      return Verdict::Used;
-    }
+  // A sample that is too large for one datagram comes in several, with one time.
+  if (!robot.isDescribed()) robot.firstRow = time;
+  if (robot.firstRow == time)
     describe(robot);
-  }
+  else
+    robot.firstRow.reset();
   append(robot, time);
   return Verdict::Used;
 }
 
-void SentBoards::takeRows(const BoardRowsTaker& take) {
+void SentBoards::drainRows(const BoardRowsTaker& take) {
   for (const auto& robot : m_robots) {
     if (robot->rows.empty()) continue;
     take(robot->group, robot->rows);
     robot->rows.clear();
+    robot->firstRow.reset();
+  }
+}
+
+void SentBoards::place(const Placing& placeOf) {
+  for (const auto& robot : m_robots) {
+    if (const auto place = placeOf(robot->number, robot->sender.address)) robot->place = *place;
   }
 }
 
@@ -292,14 +328,15 @@ std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& f
   for (const auto& robot : m_robots) {
     if (!robot->isDescribed()) continue;
     RobotFrame& out = all.emplace_back();
+    out.uid = robot->uid;
     out.key = {robot->place, robot->number, 0};
-    out.name = robot->name;
+    out.name = robot->group.name;
     out.identity.id = {};
     out.identity.number = robot->number;
     out.link = linkOf(*robot, now);
     if (!out.timedOut()) out.lamps = robot->lamps;
-    buildRobot(robot->meanings.reader(robot->row), robot->meanings.adviceReader(robot->row), field,
-               teams.batteryOf(robot->place), false, out);
+    buildRobot(robot->meanings.reader(robot->row), field, teams.batteryOf(robot->place), false,
+               out);
     out.action = out.decided.value_or(0);
     out.board = robot->meanings.contents(robot->row);
   }
@@ -311,6 +348,7 @@ std::vector<SentStatus> SentBoards::status(WallTime now) const {
   for (const auto& robot : m_robots) {
     const NamedCatalog& catalog = catalogOf(*robot);
     SentStatus& out = all.emplace_back();
+    out.uid = robot->uid;
     out.robot = {robot->place, robot->number, 0};
     out.link = linkOf(*robot, now);
     out.variables = robot->values.size();

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Short, so that it fits wherever the file's own name does; hidden, so that nobody opens it.
+/// Short, so that it fits where the name of the file does; hidden, so that it is not opened.
 std::string partName() {
   static std::atomic<unsigned> counter{0};
   return ".pitchboard-" + std::to_string(::getpid()) + "-" + std::to_string(++counter) + ".part";
@@ -121,7 +121,7 @@ Result<void> FileTarget::commit() {
   };
   struct stat old {};
   if (m_ifExists == IfExists::Replace && ::stat(m_path.c_str(), &old) == 0) {
-    // Who may read the old file may read the new one; where that cannot be kept it does not matter.
+    // The new file gets the permissions of the old one if the file system allows it.
     if (::chmod(m_part.c_str(), old.st_mode & 07777U) != 0) errno = 0;
   }
   if (const int error = syncPath(m_part, 0); error != 0) return failed(error);

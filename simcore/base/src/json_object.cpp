@@ -12,7 +12,7 @@
 namespace pitchboard {
 namespace {
 
-constexpr std::size_t mostListed = 24;
+constexpr std::size_t maxListed = 24;
 
 /// Edits (insert, delete, replace) between two names, letters compared without their case.
 std::size_t editDistance(std::string_view a, std::string_view b) {
@@ -31,6 +31,19 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+/// The name that shares its first letters with `name`, at least four and half of them: "decide" for
+/// "decision". The one with the fewest edits, if there are several.
+std::string_view withSameBeginning(std::string_view name, std::span<const std::string_view> known) {
+  std::string_view best;
+  for (const std::string_view candidate : known) {
+    const auto [end, unused] = std::ranges::mismatch(name, candidate);
+    const auto common = static_cast<std::size_t>(end - name.begin());
+    if (common < 4 || 2 * common < name.size()) continue;
+    if (best.empty() || editDistance(name, candidate) < editDistance(name, best)) best = candidate;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> known) {
@@ -45,6 +58,7 @@ std::string_view nearestName(std::string_view name, std::span<const std::string_
       best = candidate;
     }
   }
+  if (best.empty()) best = withSameBeginning(name, known);
   return best;
 }
 
@@ -54,12 +68,12 @@ std::string hint(std::string_view name, std::span<const std::string_view> known)
   if (const std::string_view near = nearestName(name, known); !near.empty()) {
     return "did you mean \"" + std::string(near) + "\"?";
   }
-  if (known.size() > mostListed)
-    return "see its list for the " + std::to_string(known.size()) + " that there are";
   std::string list = "known are ";
-  for (std::size_t i = 0; i < known.size(); ++i) {
+  const std::size_t listed = std::min(known.size(), maxListed);
+  for (std::size_t i = 0; i < listed; ++i) {
     list += (i == 0 ? "" : ", ") + std::string(known[i]);
   }
+  if (listed < known.size()) list += " and " + std::to_string(known.size() - listed) + " others";
   return list;
 }
 

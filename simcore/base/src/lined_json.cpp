@@ -10,7 +10,7 @@
 namespace pitchboard {
 namespace {
 
-constexpr std::size_t mostDepth = 64;
+constexpr std::size_t maxDepth = 64;
 
 /// How far the lexer has read.
 struct ReadPosition {
@@ -56,6 +56,18 @@ std::string withoutPreamble(std::string text) {
     if (const auto colon = text.find(": "); colon != std::string::npos) text.erase(0, colon + 2);
   }
   return text;
+}
+
+/// What people write who are used to other languages.
+std::string explained(std::string complaint) {
+  const auto says = [&complaint](const char* part) {
+    return complaint.find(part) != std::string::npos;
+  };
+  if (says("parsing object key - unexpected '}'") || says("parsing value - unexpected ']'"))
+    return complaint + "; remove the comma in front of it";
+  if (says("invalid literal; last read: ") && (says("/'") || says("#'") || says("/*")))
+    return complaint + "; JSON has no comments";
+  return complaint;
 }
 
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
@@ -104,7 +116,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
 
   bool parse_error(std::size_t, const std::string&,
                    const nlohmann::json::exception& error) override {
-    m_report.fail(lineOfToken(), "", "not valid JSON: " + withoutPreamble(error.what()));
+    m_report.fail(lineOfToken(), "", "not valid JSON: " + explained(withoutPreamble(error.what())));
     return false;
   }
 
@@ -142,9 +154,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
   }
 
   bool open(JsonNode::Kind kind) {
-    if (m_levels.size() >= mostDepth) {
+    if (m_levels.size() >= maxDepth) {
       m_report.fail(m_position.line, "",
-                    "nested deeper than " + std::to_string(mostDepth) + " levels");
+                    "nested deeper than " + std::to_string(maxDepth) + " levels");
       return false;
     }
     Level& level = m_levels.emplace_back();
@@ -212,11 +224,10 @@ Error JsonReport::allErrors() const {
   return all;
 }
 
-std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,
-                                  std::size_t mostBytes) {
-  if (text.size() > mostBytes) {
+std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report, std::size_t maxBytes) {
+  if (text.size() > maxBytes) {
     report.fail(1, "",
-                "larger than " + std::to_string(mostBytes >> 20) + " MiB, the most that is read");
+                "larger than " + std::to_string(maxBytes >> 20) + " MiB, the most that is read");
     return {};
   }
   ReadPosition position;

@@ -6,13 +6,83 @@
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <utility>
 
 #include "file_errors.h"
 
 namespace pitchboard {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Asks what the kernel says of the processes of this user.
+bool isOpenForWriting(const struct stat& file) {
+  const fs::directory_iterator end;
+  std::error_code gone, hidden;
+  for (fs::directory_iterator process("/proc", gone); !gone && process != end;
+       process.increment(gone)) {
+    const std::string name = process->path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    for (fs::directory_iterator it(process->path() / "fd", hidden); !hidden && it != end;
+         it.increment(hidden)) {
+      struct stat target {};
+      if (::stat(it->path().c_str(), &target) != 0 || target.st_dev != file.st_dev ||
+          target.st_ino != file.st_ino) {
+        continue;
+      }
+      std::ifstream info(process->path() / "fdinfo" / it->path().filename());
+      for (std::string key, value; info >> key >> value;) {
+        if (key != "flags:") continue;
+        if ((std::strtoul(value.c_str(), nullptr, 8) & O_ACCMODE) != O_RDONLY) return true;
+        break;
+      }
+    }
+  }
+  return false;
+}
+
+struct flock wholeFile(short type) {
+  struct flock lock {};
+  lock.l_type = type;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
+}  // namespace
+
+bool isBeingWritten(int descriptor, bool othersToo) {
+  struct flock lock = wholeFile(F_RDLCK);
+  if (::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type == F_WRLCK) return true;
+  struct stat status {};
+  return othersToo && ::fstat(descriptor, &status) == 0 && isOpenForWriting(status);
+}
+
+Result<NewFile> NewFile::replace(const std::string& path) {
+  struct stat old {};
+  if (::lstat(path.c_str(), &old) != 0) return create(path);
+  if (!S_ISREG(old.st_mode)) return cannotMake(EEXIST, path);
+  {
+    const UniqueFd opened(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (opened && isBeingWritten(opened.get())) {
+      return failure(ErrorCode::Conflict, "This file is still being recorded; choose another name.",
+                     path);
+    }
+  }
+  const std::string part = path + ".part";
+  auto file = create(part, path);
+  if (!file) return file;
+  if (std::rename(part.c_str(), path.c_str()) != 0) {
+    const int reason = errno;
+    ::unlink(part.c_str());
+    return cannotMake(reason, path);
+  }
+  return file;
+}
 
 Result<NewFile> NewFile::create(const std::string& path, const std::string& shownAs) {
   return open(path, O_CREAT | O_EXCL, shownAs.empty() ? path : shownAs);
@@ -27,7 +97,12 @@ Result<NewFile> NewFile::open(const std::string& path, int flags, const std::str
   do {
     descriptor.reset(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0644));
   } while (!descriptor && errno == EINTR);
-  if (descriptor) return NewFile(shownAs, std::move(descriptor));
+  if (descriptor) {
+    // A file system without locks is no reason to write nothing.
+    struct flock lock = wholeFile(F_WRLCK);
+    (void)::fcntl(descriptor.get(), F_OFD_SETLK, &lock);
+    return NewFile(shownAs, std::move(descriptor));
+  }
   return cannotMake(errno, shownAs);
 }
 

@@ -10,7 +10,7 @@
 namespace pitchboard {
 namespace {
 
-constexpr std::size_t mostTimeDigits = 10;  // 300 years of seconds
+constexpr std::size_t maxTimeDigits = 10;  // 300 years of seconds
 
 std::size_t digitsAtFront(std::string_view text) {
   return std::min(text.find_first_not_of("0123456789"), text.size());
@@ -19,7 +19,7 @@ std::size_t digitsAtFront(std::string_view text) {
 /// A number of digits; the last part of a time may have decimals.
 std::optional<double> timePart(std::string_view text, bool decimals) {
   const std::size_t digits = digitsAtFront(text);
-  if (digits > mostTimeDigits) return {};
+  if (digits > maxTimeDigits) return {};
   if (digits < text.size()) {
     if (!decimals || text[digits] != '.') return {};
     const std::string_view behind = text.substr(digits + 1);

@@ -248,8 +248,8 @@ void Collisions::advance(Tick& tick) {
   if (m_bodies.capacity() <= robots) {
     m_bodies.reserve(robots + 1);
     m_radii.reserve(robots + 1);
-    m_pairs.reserve(mostPairs(robots));
-    m_separation.reserve(robots + 1, mostPairs(robots));
+    m_pairs.reserve(maxPairs(robots));
+    m_separation.reserve(robots + 1, maxPairs(robots));
   }
   const Surface& surface = settings.field.surface;
   updateRolling(surface.keptPerFrame, tick.dt);

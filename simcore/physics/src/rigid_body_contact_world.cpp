@@ -58,8 +58,8 @@ ContactWorld::ContactWorld(const WorldState& state)
   for (std::size_t i = 0; i <= m_robots; ++i) addBody(i);
   addObstacles();
   findProxies();
-  m_listed.reserve(mostPairs(m_robots));
-  m_wanted.reserve(mostPairs(m_robots));
+  m_listed.reserve(maxPairs(m_robots));
+  m_wanted.reserve(maxPairs(m_robots));
   warmUp();
 }
 

@@ -9,10 +9,10 @@
 namespace pitchboard::sim::rigid {
 namespace {
 
-constexpr double longestStep = 1.0 / 60.0;  // s; slower ticks are divided
+constexpr double maxStep = 1.0 / 60.0;  // s; slower ticks are divided
 // Box2D caps the way of one step at b2_maxTranslation; stay below.
-constexpr double longestJump = 1.5 / unitsPerMetre;  // m
-constexpr std::size_t mostWorlds = 4;                // kinds of matches in one thread, in turn
+constexpr double maxJump = 1.5 / unitsPerMetre;  // m
+constexpr std::size_t maxWorlds = 4;             // kinds of matches in one thread, in turn
 
 // Of distances in Box2D's units, on the side that asks Box2D: more than its rounding.
 constexpr double doubt = 1e-3;
@@ -29,8 +29,8 @@ double impactDistance(double touching) {
 /// What a step needs beside the world: as scratch, for it is made again in every step.
 struct ContactSolver::World : ContactWorld {
   explicit World(const WorldState& state) : ContactWorld(state) {
-    chosen.reserve(mostPairs(robots()));
-    touches.reserve(mostPairs(robots()));
+    chosen.reserve(maxPairs(robots()));
+    touches.reserve(maxPairs(robots()));
     paths.reserve(robots() + 1);
     inside.reserve(robots() + 1);
   }
@@ -168,7 +168,7 @@ void ContactSolver::prepare(const WorldState& world) {
     std::rotate(m_worlds.begin(), found, found + 1);
     return;
   }
-  if (m_worlds.size() == mostWorlds) m_worlds.pop_back();
+  if (m_worlds.size() == maxWorlds) m_worlds.pop_back();
   m_worlds.insert(m_worlds.begin(), std::make_unique<World>(world));
 }
 
@@ -181,7 +181,7 @@ void ContactSolver::solve(std::span<MovingBody> bodies, std::span<const NearPair
   World& w = *m_worlds.front();
   double longest = 0.0;
   for (const MovingBody& moving : bodies) longest = std::max(longest, moving.reach);
-  const double steps = std::ceil(std::max({1.0, dt / longestStep - 1e-6, longest / longestJump}));
+  const double steps = std::ceil(std::max({1.0, dt / maxStep - 1e-6, longest / maxJump}));
   const auto step = static_cast<float>(dt / steps);
   if (steps > 1.0) {
     w.stepAll(bodies, pairs, step, static_cast<int>(steps));

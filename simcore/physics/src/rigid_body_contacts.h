@@ -51,7 +51,7 @@ struct NearPair {
 };
 
 /// Of so many robots, the ball and what stands on the field.
-constexpr std::size_t mostPairs(std::size_t robots) {
+constexpr std::size_t maxPairs(std::size_t robots) {
   return (robots + 1) * (robots + 2) / 2 + (robots + 1) * obstacleCount;
 }
 

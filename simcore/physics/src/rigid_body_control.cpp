@@ -44,7 +44,7 @@ void kick(Tick& tick, std::size_t index, const Action& action) {
   tick.report(EventKind::Kick, index, action.code);
 }
 
-/// The robot stands and swings; control listens to nobody until it is done.
+/// The robot stands and swings its leg; control ignores commands until it is done.
 void stepKick(Tick& tick, std::size_t index, ControlPercept& percept) {
   RigidRobot& robot = tick.state.robots[index];
   const RobotModel& model = tick.model(index);

@@ -47,7 +47,7 @@ class RigidBodyModel final : public PhysicsModel {
   bool owns(const WorldState& world) const override {
     const auto* state = std::get_if<RigidBodyState>(&world.physics);
     if (!state || state->robots.size() != world.robots.size()) return false;
-    return state->past.size() == rigid::longestDelay(world) &&
+    return state->past.size() == rigid::maxDelay(world) &&
            std::ranges::all_of(state->past, [&](const PastMoment& moment) {
              return moment.robots.size() == world.robots.size();
            });

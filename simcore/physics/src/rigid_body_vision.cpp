@@ -242,7 +242,7 @@ std::size_t delayTicks(const WorldState& world, std::size_t index) {
   return static_cast<std::size_t>(std::lround(noise.visionDelay * settings.tickRate));
 }
 
-std::size_t longestDelay(const WorldState& world) {
+std::size_t maxDelay(const WorldState& world) {
   std::size_t longest = 0;
   for (std::size_t i = 0; i < world.models.size(); ++i) {
     longest = std::max(longest, delayTicks(world, i));
@@ -285,7 +285,7 @@ void remember(Tick& tick) {
 }
 
 void resizePast(WorldState& world, RigidBodyState& state) {
-  const std::size_t delay = longestDelay(world);
+  const std::size_t delay = maxDelay(world);
   auto& ring = state.past;
   const std::size_t before = ring.size();
   if (before != delay) {

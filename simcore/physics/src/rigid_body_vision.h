@@ -13,7 +13,7 @@ namespace pitchboard::sim::rigid {
 /// Ticks from the moment in which robot `index` takes an image to that in which it is told.
 std::size_t delayTicks(const WorldState& world, std::size_t index);
 /// The longest of all robots: the size of the ring of past moments.
-std::size_t longestDelay(const WorldState& world);
+std::size_t maxDelay(const WorldState& world);
 /// Makes the ring fit the delays and the robots; moments that it has are kept.
 void resizePast(WorldState& world, RigidBodyState& state);
 

@@ -5,17 +5,25 @@
 #include <bit>
 #include <string>
 
+#include <base/random.h>
+
 namespace pitchboard::sim {
 namespace {
 
 using Allowed = Result<void>;
+
+constexpr int countedShots = 15;  // bits of GameTeam::singleShots
+
+int shotsScored(const Game& game, std::size_t team) {
+  return std::popcount(static_cast<unsigned>(game.teams[team].singleShots));
+}
 
 tl::unexpected<Error> refused(const std::string& text) {
   return failure(ErrorCode::Conflict, text);
 }
 
 /// Which states may follow which: every other change is refused.
-Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState state) {
+Allowed checkState(const Game& game, const RefereeRules& rules, PlayState state) {
   const PlayState from = game.state;
   const bool shootOut = game.phase == GamePhase::ShootOut;
   const bool possible = [&] {
@@ -31,6 +39,9 @@ Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState s
         return from == PlayState::Set;
       case PlayState::Finished:
         return from != PlayState::Initial && from != PlayState::Finished;
+      case PlayState::Standby:
+      case PlayState::Unknown:
+        return false;
     }
     return false;
   }();
@@ -44,10 +55,13 @@ Allowed checkState(const GameState& game, const RefereeRules& rules, PlayState s
   return {};
 }
 
-Allowed checkTimeout(const GameState& game, int team) {
+Allowed checkTimeout(const Game& game, int team) {
   if (game.state == PlayState::Finished || game.phase == GamePhase::Timeout ||
       (team >= 0 && game.state == PlayState::Playing)) {
     return refused("A timeout is possible only in INITIAL, READY or SET.");
+  }
+  if (game.phase == GamePhase::ShootOut && game.state != PlayState::Initial) {
+    return refused("In a shoot-out, a timeout is possible only before the first shot.");
   }
   if (team >= 0 && game.teams[static_cast<std::size_t>(team)].timeouts > 0) {
     return refused("This team has already taken its timeout in this half.");
@@ -57,10 +71,10 @@ Allowed checkTimeout(const GameState& game, int team) {
 
 }  // namespace
 
-Result<void> checkCall(const GameState& game, const RefereeRules& rules,
+Result<void> checkCall(const Game& game, const RefereeRules& rules,
                        std::span<const RobotIdentity> robots, const RefereeCall& call) {
   const bool needsTeam = call.kind == CallKind::Goal || call.kind == CallKind::SetPlay;
-  if (call.team < GameState::noTeam || call.team > 1 || (needsTeam && call.team < 0)) {
+  if (call.team < Game::noTeam || call.team > 1 || (needsTeam && call.team < 0)) {
     return failure(ErrorCode::InvalidArgument, "This call needs one of the two teams.");
   }
   const auto robot = std::ranges::find(robots, call.robot, &RobotIdentity::id);
@@ -127,18 +141,29 @@ Result<void> checkCall(const GameState& game, const RefereeRules& rules,
   return {};
 }
 
-bool shootOutDecided(const GameState& game, const RefereeRules& rules) {
-  const auto scored = [&game](std::size_t team) {
-    return std::popcount(static_cast<unsigned>(game.teams[team].singleShots));
-  };
+bool shootOutDecided(const Game& game, const RefereeRules& rules) {
   const int shots = rules.shots;
   const int taken0 = game.teams[0].penaltyShots, taken1 = game.teams[1].penaltyShots;
-  const int lead = scored(0) - scored(1);
+  const int lead = shotsScored(game, 0) - shotsScored(game, 1);
   if (taken0 < shots || taken1 < shots) {
     return lead > std::max(0, shots - taken1) || -lead > std::max(0, shots - taken0);
   }
-  // As many each and one is ahead; without end it is a draw after fifteen each, as bits go.
-  return taken0 == taken1 && (lead != 0 || taken0 >= 15);
+  // As many each, and one is ahead or a coin decides. It is a draw after as many as bits count.
+  const int suddenDeath = conductOf(rules.style).suddenDeathShots;
+  const int last = suddenDeath > 0 ? std::min(countedShots, shots + suddenDeath) : countedShots;
+  return taken0 == taken1 && (lead != 0 || taken0 >= last);
+}
+
+std::optional<int> tossWinner(const WorldState& world) {
+  if (!world.game || !world.settings.referee) return {};
+  const Game& game = *world.game;
+  const RefereeRules& rules = *world.settings.referee;
+  if (!game.over || game.phase != GamePhase::ShootOut || !shootOutDecided(game, rules) ||
+      conductOf(rules.style).suddenDeathShots == 0 ||
+      shotsScored(game, 0) != shotsScored(game, 1)) {
+    return {};
+  }
+  return CounterRandom(world.settings.seed, 0, NoiseStream::Coin, 0).uniform() < 0.5 ? 0 : 1;
 }
 
 }  // namespace pitchboard::sim

@@ -25,9 +25,9 @@ double secondsIn(int ticks, double tickRate) {
 }  // namespace
 
 Result<void> RefereeTable::start(const GameStart& start) {
-  GameState& g = m_game;
+  Game& g = m_game;
   const auto indexOf = [&](const std::optional<TeamColor>& colour) -> Result<int> {
-    if (!colour) return GameState::noTeam;
+    if (!colour) return Game::noTeam;
     const int team = g.teamOf(*colour);
     if (team >= 0) return team;
     return wrong("The " + std::string(info(*colour).name) + " team does not play in this match.");
@@ -43,6 +43,14 @@ Result<void> RefereeTable::start(const GameStart& start) {
   if (start.firstKickOff) g.firstKickOff = TRY(indexOf(start.firstKickOff));
   g.phase = start.phase;
   g.phaseBefore = start.phaseBefore;
+  if (g.phase == GamePhase::Timeout && start.state != PlayState::Initial) {
+    return wrong("During a timeout the state is \"initial\"; the game then goes on with READY.");
+  }
+  if (g.phaseBefore == GamePhase::Timeout) {
+    return wrong(
+        "\"phase_before\" is the phase to which the game returns after the timeout, so it "
+        "cannot be \"timeout\".");
+  }
   g.half = start.half;
   g.kickOff = start.kickOff ? TRY(indexOf(start.kickOff->team)) : kickingOff(start.half);
   g.shooter = TRY(indexOf(start.shooter));
@@ -67,10 +75,11 @@ Result<void> RefereeTable::start(const GameStart& start) {
   const PlayState state = start.state;
   g.state = state;
   g.stateTicks = 0;
-  g.countdown = state == PlayState::Ready ? GameState::Countdown{ticks(m_rules.readyTime), true}
+  g.countdown = state == PlayState::Ready ? Game::Countdown{ticks(m_rules.readyTime), true}
                 : state == PlayState::Finished && g.half == 1
-                    ? GameState::Countdown{ticks(m_rules.breakTime), true}
-                    : GameState::Countdown{};
+                    ? Game::Countdown{ticks(m_rules.breakTime), true}
+                : g.phase == GamePhase::Timeout ? Game::Countdown{ticks(m_rules.timeoutTime), true}
+                                                : Game::Countdown{};
   if (state == PlayState::Finished) {
     g.breakLeft = ticks(std::max(m_rules.breakTime, m_rules.beforeHalf));
   }
@@ -79,10 +88,10 @@ Result<void> RefereeTable::start(const GameStart& start) {
                : hasBegun                                                    ? ClockUse::Began
                : state == PlayState::Playing || state == PlayState::Finished ? ClockUse::BeganNow
                                                                              : ClockUse::Full;
-  g.still = g.near = {m_now.ball, 0};
-  for (std::size_t i = 0; i < g.watches.size(); ++i) {
+  m_memory.still = m_memory.near = {m_now.ball, 0};
+  for (std::size_t i = 0; i < m_memory.watches.size(); ++i) {
     const Point& at = m_now.robots[i].pose.position;
-    g.watches[i].setPose = m_now.robots[i].pose;
+    m_memory.watches[i].setPose = m_now.robots[i].pose;
     const bool isOutside = std::abs(at.x) > m_field.halfLength() + radiusOf(i) ||
                            std::abs(at.y) > m_field.halfWidth() + radiusOf(i);
     if (isOutside && state != PlayState::Initial) comesBack(i);
@@ -96,7 +105,7 @@ Result<void> RefereeTable::start(const GameStart& start) {
     one.red = given.red;
     one.cautions = given.cautions;
     if (given.goalkeeper) {
-      // Who keeps a goal is said for the whole team then.
+      // The goalkeeper is then given for the whole team.
       for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
         if (teamOf(i) != teamOf(robot)) continue;
         const auto other = start.robots.find(m_world.robots[i].id);
@@ -139,16 +148,16 @@ Result<void> RefereeTable::start(const GameStart& start) {
   if (start.dropIn) g.dropIn = {TRY(indexOf(start.dropIn->team)), ticks(start.dropIn->ago)};
   if (start.touch) {
     const std::size_t robot = TRY(robotOf(start.touch->robot));
-    g.touch = {start.touch->robot.value, teamOf(robot), ticks(start.touch->ago)};
+    m_memory.touch = {start.touch->robot.value, teamOf(robot), ticks(start.touch->ago)};
   }
   for (const auto& [given, rest] :
-       {std::pair(&start.ballStill, &g.still), std::pair(&start.ballNear, &g.near)}) {
+       {std::pair(&start.ballStill, &m_memory.still), std::pair(&start.ballNear, &m_memory.near)}) {
     if (*given) *rest = {(*given)->place.value_or(m_now.ball), ticks((*given)->time)};
   }
-  g.aloneTicks = ticks(start.ballAlone);
+  m_memory.aloneTicks = ticks(start.ballAlone);
   g.stopped = g.stopped || start.stopped;
   g.over = start.over;
-  if (!isPlausible(g, m_world.robots.size())) {
+  if (!isPlausible(g, m_memory, m_world.robots.size())) {
     return wrong("A number of the game is out of range.");
   }
   mirror();
@@ -161,7 +170,8 @@ Result<void> startGame(WorldState& world, const Snapshot& now, const GameStart& 
 }
 
 GameStart gameStartOf(const WorldState& world) {
-  const GameState& g = *world.game;
+  const Game& g = *world.game;
+  const RefereeMemory& memory = world.refereeMemory;
   const double rate = world.settings.tickRate;
   const auto seconds = [rate](int ticks) { return secondsIn(ticks, rate); };
   const auto colourOf = [&g](int team) -> std::optional<TeamColor> {
@@ -196,12 +206,12 @@ GameStart gameStartOf(const WorldState& world) {
   if (g.dropIn.team >= 0) {
     out.dropIn = GameStart::DropIn{*colourOf(g.dropIn.team), seconds(g.dropIn.ticks)};
   }
-  if (plays(RobotId{g.touch.robot})) {
-    out.touch = GameStart::Touch{RobotId{g.touch.robot}, seconds(g.touch.ticks)};
+  if (plays(RobotId{memory.touch.robot})) {
+    out.touch = GameStart::Touch{RobotId{memory.touch.robot}, seconds(memory.touch.ticks)};
   }
-  out.ballStill = GameStart::Rest{g.still.place, seconds(g.still.ticks)};
-  out.ballNear = GameStart::Rest{g.near.place, seconds(g.near.ticks)};
-  out.ballAlone = seconds(g.aloneTicks);
+  out.ballStill = GameStart::Rest{memory.still.place, seconds(memory.still.ticks)};
+  out.ballNear = GameStart::Rest{memory.near.place, seconds(memory.near.ticks)};
+  out.ballAlone = seconds(memory.aloneTicks);
   out.stopped = g.stopped;
   out.over = g.over;
   for (const GameTeam& team : g.teams) {

@@ -15,7 +15,7 @@ namespace pitchboard::sim {
 
 namespace {
 
-/// Those of the settings, then the colours on the field, then blue and red.
+/// Returns the teams of the settings, else those of the colours on the field, else blue and red.
 Result<std::array<GameTeam, 2>> teamsOf(const WorldState& world) {
   std::vector<TeamSettings> teams = world.settings.teams;
   const auto has = [&teams](TeamColor colour) {
@@ -55,18 +55,31 @@ Result<std::array<GameTeam, 2>> teamsOf(const WorldState& world) {
 
 }  // namespace
 
-Result<GameState> newGame(WorldState& world, const Snapshot& now) {
+Result<void> checkTeam(const Game& game, TeamColor team) {
+  if (game.teamOf(team) != Game::noTeam) return {};
+  const auto name = [&game](std::size_t index) {
+    return std::string(info(game.teams[index].colour).name);
+  };
+  return failure(ErrorCode::Conflict,
+                 "This match has a referee and is between " + name(0) + " and " + name(1) +
+                     ". Choose one of these teams, or play without a referee.");
+}
+
+Result<Game> newGame(WorldState& world, const Snapshot& now) {
   const RefereeRules& rules = *world.settings.referee;
   const double rate = world.settings.tickRate;
-  GameState game;
+  Game game;
   auto teams = teamsOf(world);
   if (!teams) return tl::unexpected(teams.error());
   game.teams = *teams;
   game.clock = static_cast<int>(std::lround(rules.halfTime * rate));
   game.breakLeft = static_cast<int>(std::lround(rules.beforeMatch * rate));
-  game.watches.resize(world.robots.size());
+  game.league = leagueOf(rules.style);
+  game.tickRate = rate;
+  world.refereeMemory = {};
+  world.refereeMemory.watches.resize(world.robots.size());
   giveSlots(world.robots, game);
-  // Who attacks where is what the first robot of a team was told.
+  // The first robot of a team says in which direction its team attacks.
   if (!world.robots.empty()) {
     const RobotIdentity& first = world.robots.front();
     game.swapped = first.imuStartsAt180 != (game.teamOf(first.team) == 1);
@@ -92,7 +105,7 @@ Result<GameState> newGame(WorldState& world, const Snapshot& now) {
   return game;
 }
 
-void giveSlots(std::span<const RobotIdentity> robots, GameState& game) {
+void giveSlots(std::span<const RobotIdentity> robots, Game& game) {
   for (GameTeam& team : game.teams) {
     const auto wears = [&](int shirt) {
       return std::ranges::any_of(robots, [&](const RobotIdentity& robot) {
@@ -104,7 +117,7 @@ void giveSlots(std::span<const RobotIdentity> robots, GameState& game) {
       const auto isFree = [&](std::size_t slot) {
         return team.shirts[slot] == 0 || !wears(team.shirts[slot]);
       };
-      std::size_t slot = GameTeam::mostPlayers;
+      std::size_t slot = GameTeam::maxPlayers;
       if (robot.number >= 1 && robot.number <= static_cast<int>(slot) &&
           isFree(static_cast<std::size_t>(robot.number - 1))) {
         slot = static_cast<std::size_t>(robot.number);
@@ -139,16 +152,17 @@ void swapSides(WorldState& world) {
   }
 }
 
-bool isPlausible(const GameState& game, std::size_t robots) {
-  const auto isTeam = [](int team) { return team >= GameState::noTeam && team <= 1; };
+bool isPlausible(const Game& game, const RefereeMemory& memory, std::size_t robots) {
+  const auto isTeam = [](int team) { return team >= Game::noTeam && team <= 1; };
   const auto isTime = [](int ticks) { return ticks > -100'000'000 && ticks < 100'000'000; };
-  const bool teams = isTeam(game.kickOff) && isTeam(game.restart.team) && isTeam(game.touch.team) &&
-                     isTeam(game.dropIn.team) && isTeam(game.shooter) &&
-                     (game.firstKickOff == 0 || game.firstKickOff == 1);
+  const bool teams = isTeam(game.kickOff) && isTeam(game.restart.team) &&
+                     isTeam(memory.touch.team) && isTeam(game.dropIn.team) &&
+                     isTeam(game.shooter) && (game.firstKickOff == 0 || game.firstKickOff == 1);
   const bool times =
       isTime(game.clock) && isTime(game.countdown.ticks) && isTime(game.stateTicks) &&
       isTime(game.hidden) && isTime(game.breakLeft) && isTime(game.dropIn.ticks) &&
-      isTime(game.touch.ticks) && std::ranges::all_of(game.watches, [&](const RobotWatch& watch) {
+      isTime(memory.touch.ticks) &&
+      std::ranges::all_of(memory.watches, [&](const RobotWatch& watch) {
         return isTime(watch.stillTicks) && isTime(watch.areaTicks) && isTime(watch.backTicks);
       });
   const bool counts = std::all_of(game.teams.begin(), game.teams.end(), [&](const GameTeam& team) {
@@ -160,15 +174,56 @@ bool isPlausible(const GameState& game, std::size_t robots) {
            std::all_of(team.players.begin(), team.players.end(),
                        [&](const GamePlayer& p) { return isTime(p.ticksLeft); });
   });
-  return teams && times && counts && game.watches.size() == robots && game.half >= 1 &&
+  return teams && times && counts && memory.watches.size() == robots && game.half >= 1 &&
          game.half <= 2 && game.teams[0].colour != game.teams[1].colour;
+}
+
+void reportObeyed(const Game& before, bool joins, const WorldState& world,
+                  std::vector<Event>& events) {
+  const Game& now = *world.game;
+  const auto report = [&](EventKind kind, int value = 0, RobotId robot = {}) {
+    events.push_back({kind, world.tick, robot, value, 0});
+  };
+  if (now.phase != before.phase) report(EventKind::PhaseChanged, static_cast<int>(now.phase));
+  // The packets of a shoot-out belong to neither half.
+  if (now.half != before.half && now.phase != GamePhase::ShootOut) {
+    report(EventKind::HalfBegan, now.half);
+  }
+  for (std::size_t i = 0; i < now.teams.size(); ++i) {
+    const int more = now.teams[i].score - before.teams[i].score;
+    if (more == 0) continue;
+    report(more > 0 && !joins ? EventKind::Goal : EventKind::ScoreCorrected,
+           now.leftTeam() == i ? 0 : 1);
+  }
+  if (now.state != before.state) report(EventKind::PlayStateChanged, static_cast<int>(now.state));
+  if (now.stopped != before.stopped) {
+    report(now.stopped ? EventKind::PlayStopped : EventKind::PlayGoesOn);
+  }
+  if (now.setPlay() != before.setPlay() || now.setPlayTeam() != before.setPlayTeam()) {
+    if (now.setPlay() != SetPlay::None) {
+      report(EventKind::SetPlayBegan, static_cast<int>(now.setPlay()));
+    } else {
+      report(EventKind::SetPlayOver);
+    }
+  }
+  for (const RobotIdentity& robot : world.robots) {
+    const GamePlayer* was = before.player(robot.team, robot.number);
+    const GamePlayer* is = now.player(robot.team, robot.number);
+    if (!was || !is || was->penalty == is->penalty) continue;
+    if (is->penalty != PenaltyKind::None) {
+      report(EventKind::Penalised, static_cast<int>(is->penalty), robot.id);
+    } else {
+      report(EventKind::PenaltyOver, 0, robot.id);
+    }
+  }
 }
 
 Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCall& call,
                          Placements& placements, std::vector<Event>& events) {
   RefereeTable table(world, now, placements, events);
   TRY(checkCall(*world.game, *world.settings.referee, world.robots, call));
-  world.game->obeyed = false;  // whoever calls has the game, until a GameController's next packet
+  world.refereeMemory.obeyed =
+      false;  // whoever calls has the game, until a GameController's next packet
   table.carryOut(call);
   return {};
 }
@@ -176,10 +231,6 @@ Result<void> callReferee(WorldState& world, const Snapshot& now, const RefereeCa
 void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
                  Placements& placements, std::vector<Event>& events) {
   RefereeTable(world, now, placements, events).tick(sweep);
-}
-
-int secondsOf(int ticks, double tickRate) {
-  return static_cast<int>(std::ceil(static_cast<double>(ticks) / tickRate - 1e-9));
 }
 
 }  // namespace pitchboard::sim

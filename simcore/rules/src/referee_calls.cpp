@@ -93,15 +93,13 @@ void RefereeTable::carryOut(PlayState state) {
     case PlayState::Initial:
       nextHalf();
       break;
-    case PlayState::Ready: {
-      const int kickOff = m_game.state == PlayState::Playing ? GameState::noTeam : m_game.kickOff;
+    case PlayState::Ready:
       if (m_game.phase == GamePhase::Timeout) {
-        m_game.phase = m_game.phaseBefore;
-        report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));
+        endTimeout();
+        break;
       }
-      beginReady(kickOff);
+      beginReady(m_game.state == PlayState::Playing ? Game::noTeam : m_game.kickOff);
       break;
-    }
     case PlayState::Set:
       if (m_game.state == PlayState::Ready)
         enter(PlayState::Set);
@@ -116,6 +114,9 @@ void RefereeTable::carryOut(PlayState state) {
         endShot();
       else
         finish();
+      break;
+    case PlayState::Standby:
+    case PlayState::Unknown:
       break;
   }
 }

@@ -29,7 +29,7 @@ constexpr double stands = 0.02;         // m that a robot moves which stands
 constexpr double standsTurned = 0.1;    // rad
 constexpr double clearTime = 10.0;      // s to leave the ball of a set play
 constexpr double atRest = 0.01;         // m/s
-constexpr double longestEnd = 10.0;     // s that a half waits for the ball
+constexpr double maxEnd = 10.0;         // s that a half waits for the ball
 
 }  // namespace
 
@@ -44,7 +44,8 @@ void RefereeTable::judge(const BallSweep& sweep) {
   if (m_game.state == PlayState::Playing) judgeHalf();
 }
 
-/// Who has the ball: a kick of this tick, else the nearest that touches it.
+/// Finds the robot that has the ball: the one that kicked in this tick, else the nearest that
+/// touches it.
 void RefereeTable::followTouches(const BallSweep&) {
   Restart& restart = m_game.restart;
   const bool placed = restart.step != Restart::Step::Placing;
@@ -67,9 +68,9 @@ void RefereeTable::followTouches(const BallSweep&) {
   if (toucher) {
     const int team = teamOf(*toucher);
     const int id = m_world.robots[*toucher].id.value;
-    const bool begins = m_game.touch.robot != id;
-    const bool again = !begins && m_game.touch.ticks > ticks(oneTouch);
-    m_game.touch = {id, team, 0};
+    const bool begins = m_memory.touch.robot != id;
+    const bool again = !begins && m_memory.touch.ticks > ticks(oneTouch);
+    m_memory.touch = {id, team, 0};
     if (again) judgeDoubleTouch(*toucher);
     if (restart.kicker == 0 && team == restart.team) {
       restart.kicker = id;
@@ -90,13 +91,13 @@ void RefereeTable::followTouches(const BallSweep&) {
       penalise(*toucher, PenaltyKind::IllegalPosition);
     }
   }
-  if (!m_game.obeyed && !m_game.ballFree() && placed && restart.kicker != 0 &&
+  if (!m_memory.obeyed && !m_game.ballFree() && placed && restart.kicker != 0 &&
       !within(m_now.ball, restart.place, m_rules.inPlayDistance)) {
     inPlay();
   }
 }
 
-/// Who took a set play and touches the ball again before anybody else.
+/// Judges a robot that took a set play and touches the ball again before any other robot.
 void RefereeTable::judgeDoubleTouch(std::size_t robot) {
   const Restart& restart = m_game.restart;
   const bool judged = restart.kind == SetPlay::ThrowIn || restart.kind == SetPlay::GoalKick ||
@@ -138,13 +139,14 @@ bool RefereeTable::judgeLines(const BallSweep& sweep) {
     endShot();
     return true;
   }
-  // Of a ball that nobody touched the defenders have it; on the touch line who did not start.
+  // If no robot touched the ball, the defenders get it; at the touch line the team that did not
+  // kick off.
   const bool touchLine = crossing.line == Crossing::Line::Touch;
   const int right = static_cast<int>(m_game.swapped ? 0 : 1);  // defends the right goal
   const int defenders = crossing.right ? right : 1 - right;
-  const int lastTouch = m_game.touch.team >= 0 ? m_game.touch.team
-                        : touchLine            ? (crossing.where.x > 0.0 ? 1 - right : right)
-                                               : 1 - defenders;
+  const int lastTouch = m_memory.touch.team >= 0 ? m_memory.touch.team
+                        : touchLine              ? (crossing.where.x > 0.0 ? 1 - right : right)
+                                                 : 1 - defenders;
   if (touchLine) {
     if (m_rules.throwIns) {
       beginSetPlay(SetPlay::ThrowIn, 1 - lastTouch, crossing.where);
@@ -171,9 +173,9 @@ void RefereeTable::judgeGoal(bool right, const Point& where) {
   // Straight from a kick-off, a throw-in or an indirect free kick it is none; into the own goal it
   // is a corner.
   const Restart& restart = m_game.restart;
-  if (!restart.passed && restart.kicker != 0 && m_game.touch.robot == restart.kicker) {
+  if (!restart.passed && restart.kicker != 0 && m_memory.touch.robot == restart.kicker) {
     report(EventKind::BallOut);
-    if (m_game.touch.team == static_cast<int>(scorer)) {
+    if (m_memory.touch.team == static_cast<int>(scorer)) {
       beginSetPlay(SetPlay::GoalKick, conceding, where);
     } else {
       beginSetPlay(SetPlay::CornerKick, static_cast<int>(scorer), where);
@@ -183,9 +185,9 @@ void RefereeTable::judgeGoal(bool right, const Point& where) {
   goal(scorer);
 }
 
-/// The ball lies still, or nobody cares for it, or a heap of robots hides it.
+/// The ball lies still, no robot goes for it, or robots in a heap hide it.
 void RefereeTable::judgeRest() {
-  GameState& g = m_game;
+  Game& g = m_game;
   if (g.phase == GamePhase::ShootOut) {
     if (g.clock <= 0) endShot();
     return;
@@ -194,22 +196,22 @@ void RefereeTable::judgeRest() {
     if (!within(m_now.ball, at.place, distance)) at = {m_now.ball, 0};
     ++at.ticks;
   };
-  rest(g.still, m_rules.stillDistance);
-  rest(g.near, heap);
+  rest(m_memory.still, m_rules.stillDistance);
+  rest(m_memory.near, heap);
   const auto isSomebodyWithin = [this](double reach) {
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
       if (plays(i) && within(m_now.robots[i].pose.position, m_now.ball, reach)) return true;
     }
     return false;
   };
-  g.aloneTicks = isSomebodyWithin(alone) ? 0 : g.aloneTicks + 1;
+  m_memory.aloneTicks = isSomebodyWithin(alone) ? 0 : m_memory.aloneTicks + 1;
   // It is stuck in a heap while robots are at it, and not while only one team may touch it.
   if (!g.ballFree() || !isSomebodyWithin(m_rules.localStuckReach)) {
-    g.near.ticks = std::min(g.near.ticks, 0);
+    m_memory.near.ticks = std::min(m_memory.near.ticks, 0);
   }
   if (!m_rules.dropBalls) return;
   const auto over = [this](int passed, double time) { return time > 0.0 && passed >= ticks(time); };
-  if (over(g.near.ticks, m_rules.localStuckTime)) {
+  if (over(m_memory.near.ticks, m_rules.localStuckTime)) {
     std::optional<std::size_t> nearest;
     double least = m_rules.localStuckReach * m_rules.localStuckReach;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
@@ -218,13 +220,15 @@ void RefereeTable::judgeRest() {
       least = d;
       nearest = i;
     }
-    g.near.ticks = nearest ? -ticks(afterHeap) : 0;
+    m_memory.near.ticks = nearest ? -ticks(afterHeap) : 0;
     if (nearest) {
       penalise(*nearest, PenaltyKind::LocalStuck);
       return;
     }
   }
-  if (over(g.still.ticks, m_rules.stillTime) || over(g.aloneTicks, m_rules.nobodyTime)) dropBall();
+  if (over(m_memory.still.ticks, m_rules.stillTime) ||
+      over(m_memory.aloneTicks, m_rules.nobodyTime))
+    dropBall();
 }
 
 void RefereeTable::judgeRobots() {
@@ -232,7 +236,7 @@ void RefereeTable::judgeRobots() {
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
     if (!plays(i)) continue;
     const RobotSnapshot& robot = m_now.robots[i];
-    RobotWatch& watch = m_game.watches[i];
+    RobotWatch& watch = m_memory.watches[i];
     if (isSet) {
       if (!within(robot.pose.position, watch.setPose.position, m_rules.motionInSet) &&
           m_game.stateTicks > ticks(1.0)) {
@@ -248,7 +252,7 @@ void RefereeTable::judgeRobots() {
     const double radius = radiusOf(i);
     const bool out = std::abs(robot.pose.position.x) > m_field.halfLength() + radius ||
                      std::abs(robot.pose.position.y) > m_field.halfWidth() + radius;
-    // Who fetches a ball from the line may stand behind it.
+    // A robot that fetches the ball from the line may stand behind the line.
     const bool fetches = !m_game.ballFree();
     watch.outsideTicks = !out      ? 0
                          : fetches ? std::min(0, watch.outsideTicks)
@@ -277,11 +281,11 @@ void RefereeTable::judgeGoalAreas() {
     int inside = 0;
     std::optional<std::size_t> last;
     for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
-      if (teamOf(i) != team || !plays(i) || m_game.watches[i].areaTicks == 0) continue;
+      if (teamOf(i) != team || !plays(i) || m_memory.watches[i].areaTicks == 0) continue;
       ++inside;
-      if (!last || m_game.watches[i].areaTicks < m_game.watches[*last].areaTicks) last = i;
+      if (!last || m_memory.watches[i].areaTicks < m_memory.watches[*last].areaTicks) last = i;
     }
-    if (inside > m_rules.goalAreaMost && m_game.watches[*last].areaTicks > ticks(enteredFor)) {
+    if (inside > m_rules.goalAreaMost && m_memory.watches[*last].areaTicks > ticks(enteredFor)) {
       penalise(*last, PenaltyKind::IllegalPosition);
     }
   }
@@ -290,7 +294,7 @@ void RefereeTable::judgeGoalAreas() {
 /// Touching an opponent that is nearer to the ball, and walking against it. Who turns in place or
 /// kicks does not push.
 void RefereeTable::judgePushing(std::size_t robot) {
-  RobotWatch& watch = m_game.watches[robot];
+  RobotWatch& watch = m_memory.watches[robot];
   if (watch.immuneTicks > 0) {
     --watch.immuneTicks;
     return;
@@ -362,7 +366,7 @@ bool RefereeTable::allStandReady() {
   for (std::size_t i = 0; i < m_now.robots.size(); ++i) {
     if (!plays(i)) continue;
     const RobotSnapshot& robot = m_now.robots[i];
-    RobotWatch& watch = m_game.watches[i];
+    RobotWatch& watch = m_memory.watches[i];
     const double turned = std::remainder(robot.pose.yaw - watch.setPose.yaw, 2 * std::numbers::pi);
     if (robot.fallen || std::abs(turned) > standsTurned ||
         !within(robot.pose.position, watch.setPose.position, stands)) {
@@ -388,7 +392,7 @@ void RefereeTable::judgeKickOff() {
 
 /// Came back from a penalty a short time ago: it may still be where others must not be.
 bool RefereeTable::isReturning(std::size_t robot) const {
-  return m_game.watches[robot].backTicks >= 0;
+  return m_memory.watches[robot].backTicks >= 0;
 }
 
 /// A set play goes on by its timers; who stands at the ball when it may be taken is penalised.
@@ -442,7 +446,7 @@ void RefereeTable::judgeHalf() {
   if (m_game.clock >= 0) return;
   const Velocity& v = m_now.ballVelocity;
   const bool still = v.x * v.x + v.y * v.y < atRest * atRest && m_game.clock <= -ticks(1.0);
-  if (still || m_game.clock <= -ticks(longestEnd)) finish();
+  if (still || m_game.clock <= -ticks(maxEnd)) finish();
 }
 
 }  // namespace pitchboard::sim

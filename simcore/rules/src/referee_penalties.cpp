@@ -53,16 +53,16 @@ void RefereeTable::penalise(std::size_t robot, PenaltyKind penalty) {
   one->counting = m_rules.countsFromCall || staysOnField(penalty);
   one->outside = false;
   if (m_rules.escalates && escalating(penalty)) ++team.penalties;
-  RobotWatch& watch = m_game.watches[robot];
+  RobotWatch& watch = m_memory.watches[robot];
   watch.downTicks = watch.outsideTicks = watch.contactTicks = 0;
   report(EventKind::Penalised, static_cast<int>(penalty), m_world.robots[robot].id);
   // The assistant needs a while; where penalties count from the call, none is needed.
   if (m_rules.placedAfter <= 0.0 && !staysOnField(penalty)) putOutside(robot);
 }
 
-/// Who comes back from beside the field needs a while: until it has been inside, it is not leaving.
+/// A robot that returns from outside the field is not leaving it until it has been inside.
 void RefereeTable::comesBack(std::size_t robot) {
-  RobotWatch& watch = m_game.watches[robot];
+  RobotWatch& watch = m_memory.watches[robot];
   watch = {};
   watch.setPose = m_now.robots[robot].pose;
   watch.backTicks = 0;
@@ -112,10 +112,11 @@ void RefereeTable::putOutside(std::size_t robot) {
 
 void RefereeTable::runPenalties() {
   if (m_game.phase == GamePhase::Timeout) return;
-  const bool stands = m_game.restart.isAnnounced() && m_rules.clockStopsInSetPlays;
-  const bool runs = m_rules.countsAlways || (m_game.state == PlayState::Playing && !stands) ||
-                    m_game.state == PlayState::Ready ||
-                    (m_game.state == PlayState::Set && m_conduct.penaltiesCountInSet);
+  const bool setPlay = m_game.restart.isAnnounced() && m_rules.clockStopsInSetPlays;
+  const bool counted = (m_game.state == PlayState::Playing && !setPlay) ||
+                       m_game.state == PlayState::Ready ||
+                       (m_game.state == PlayState::Set && m_conduct.penaltiesCountInSet);
+  const bool runs = m_rules.countsAlways || (counted && !m_game.stopped);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     GamePlayer* one = player(i);
     if (!one || one->penalty == PenaltyKind::None) continue;
@@ -125,7 +126,7 @@ void RefereeTable::runPenalties() {
       putOutside(i);
       one->counting = true;
     }
-    if (isForGood(one->penalty) || !one->counting || !runs || m_game.obeyed) continue;
+    if (isForGood(one->penalty) || !one->counting || !runs || m_memory.obeyed) continue;
     if (one->ticksLeft > 0) --one->ticksLeft;
     if (one->ticksLeft > 0 || (!m_rules.automatic && m_rules.countsAlways)) continue;
     pardon(i);

@@ -23,8 +23,8 @@ void RefereeTable::countGoal(std::size_t team, int goals) {
 }
 
 void RefereeTable::goal(std::size_t team) {
+  if (m_memory.obeyed) return;  // the GameController says whether it is one
   report(EventKind::Goal, m_game.leftTeam() == team ? 0 : 1);
-  if (m_game.obeyed) return;  // the GameController says whether it counts
   GameTeam& scorer = m_game.teams[team];
   countGoal(team, 1);
   mirror();
@@ -46,45 +46,47 @@ void RefereeTable::goal(std::size_t team) {
   beginReady(static_cast<int>(1 - team));
 }
 
-/// Where the rules put the ball, of one that left the field or lay at `where`.
-Point RefereeTable::placeOf(SetPlay play, int team, const Point& where) const {
-  const bool replaced = m_conduct.replacesBall;
+Point setPlayPlace(SetPlay play, double sign, const Point& where, RefereeStyle style,
+                   const FieldSpec& field) {
+  const RefereeConduct conduct = conductOf(style);
+  const bool replaced = conduct.replacesBall;
   const double inside = replaced ? replacedInside : 0.0;
   const double side = where.y < 0.0 ? -1.0 : 1.0;
-  const double x = m_field.halfLength(), y = m_field.halfWidth();
+  const double x = field.halfLength(), y = field.halfWidth();
+  const auto onField = [&](const Point& p) {
+    return Point{std::clamp(p.x, -x, x), std::clamp(p.y, -y, y)};
+  };
   switch (play) {
     case SetPlay::ThrowIn: {
       // Until 2016 a metre back towards the goal of who put it out, and not into the goal areas.
       double at = std::clamp(where.x, -x, x);
       if (replaced) {
-        const double most = std::max(0.0, x - m_field.goalAreaLength);
-        at = std::clamp(at + attackSign(team), -most, most);
+        const double most = std::max(0.0, x - field.goalAreaLength);
+        at = std::clamp(at + sign, -most, most);
       }
       return {at, side * (y - inside)};
     }
     case SetPlay::GoalKick:
-      if (m_conduct.goalKickAtArea) {
-        return {-attackSign(team) * (x - m_field.goalAreaLength),
-                side * m_field.goalAreaWidth / 2.0};
+      if (conduct.goalKickAtArea) {
+        return {-sign * (x - field.goalAreaLength), side * field.goalAreaWidth / 2.0};
       }
       return {0.0, side * (y - inside)};
     case SetPlay::CornerKick:
-      return {attackSign(team) * (replaced ? x - m_field.goalAreaLength : x), side * (y - inside)};
+      return {sign * (replaced ? x - field.goalAreaLength : x), side * (y - inside)};
     case SetPlay::PenaltyKick:
-      return {attackSign(team) * (x - m_field.penaltyMarkDistance), 0.0};
+      return {sign * (x - field.penaltyMarkDistance), 0.0};
     case SetPlay::IndirectFreeKick: {
-      const double front = x - m_field.goalAreaLength;
-      const bool inArea =
-          where.x * attackSign(team) > front && std::abs(where.y) < m_field.goalAreaWidth / 2.0;
-      return clamped(inArea ? Point{attackSign(team) * front, where.y} : where, 0.0);
+      const double front = x - field.goalAreaLength;
+      const bool inArea = where.x * sign > front && std::abs(where.y) < field.goalAreaWidth / 2.0;
+      return onField(inArea ? Point{sign * front, where.y} : where);
     }
     default:
-      return clamped(where, 0.0);
+      return onField(where);
   }
 }
 
 void RefereeTable::beginSetPlay(SetPlay play, int team, const Point& place) {
-  const Point where = placeOf(play, team, place);
+  const Point where = setPlayPlace(play, attackSign(team), place, m_rules.style, m_field);
   report(EventKind::SetPlayBegan, static_cast<int>(play));
   if (m_conduct.replacesBall && play != SetPlay::PenaltyKick) {
     // The ball is put back, in play at once.
@@ -177,12 +179,12 @@ void RefereeTable::inPlay() {
 
 void RefereeTable::dropBall() {
   report(EventKind::DropBall);
-  beginReady(GameState::noTeam);
+  beginReady(Game::noTeam);
 }
 
 /// The next shot of a shoot-out: kicker and keeper stand ready, everybody else is out.
 void RefereeTable::beginShot() {
-  if (m_game.shooter != GameState::noTeam) {
+  if (m_game.shooter != Game::noTeam) {
     m_game.shooter = 1 - m_game.shooter;
     // Both teams shoot at the same goal. Nobody is carried over: who plays is placed, the others
     // wait outside.
@@ -212,7 +214,7 @@ void RefereeTable::beginShot() {
     if (!own && one->penalty != PenaltyKind::None && one->ticksLeft > 0) continue;
     (own ? kicks : keeps) = true;
     freeOfPenalty(*one);
-    m_game.watches[i] = {};
+    m_memory.watches[i] = {};
     const double yaw = attackSign(teamOf(i)) > 0.0 ? 0.0 : 3.141592653589793;
     const double x =
         own ? mark - attackSign(team) * 0.6 : attackSign(team) * (m_field.halfLength() - 0.05);

@@ -41,8 +41,8 @@ Point RefereeTable::clamped(const Point& p, double inside) const {
 
 void RefereeTable::putBall(const Point& place) {
   m_placements.ball = place;
-  m_game.still = m_game.near = {place, 0};
-  m_game.aloneTicks = 0;
+  m_memory.still = m_memory.near = {place, 0};
+  m_memory.aloneTicks = 0;
 }
 
 void RefereeTable::enter(PlayState state) {
@@ -52,9 +52,9 @@ void RefereeTable::enter(PlayState state) {
   m_game.hidden = 0;
   m_game.stopped = false;
   if (state == PlayState::Ready || state == PlayState::Set) {
-    for (std::size_t i = 0; i < m_game.watches.size(); ++i) {
-      m_game.watches[i].setPose = m_now.robots[i].pose;
-      m_game.watches[i].stillTicks = 0;
+    for (std::size_t i = 0; i < m_memory.watches.size(); ++i) {
+      m_memory.watches[i].setPose = m_now.robots[i].pose;
+      m_memory.watches[i].stillTicks = 0;
     }
   }
   report(EventKind::PlayStateChanged, static_cast<int>(state));
@@ -65,7 +65,7 @@ void RefereeTable::beginReady(int kickOff) {
   m_game.kickOff = kickOff;
   m_game.countdown = {ticks(m_rules.readyTime), true};
   m_game.dropIn = {};
-  m_game.touch = {};
+  m_memory.touch = {};
   freeBall({});
 }
 
@@ -107,12 +107,29 @@ void RefereeTable::finish() {
   pardonAll();
 }
 
+/// A countdown that does not run cannot end it.
+bool RefereeTable::timeoutIsOver() const {
+  return m_game.countdown.runs ? m_game.countdown.ticks <= 0
+                               : m_game.stateTicks >= ticks(m_rules.timeoutTime);
+}
+
+/// The game goes on in the phase before: with READY, or the first shot.
+void RefereeTable::endTimeout() {
+  m_game.phase = m_game.phaseBefore;
+  report(EventKind::PhaseChanged, static_cast<int>(m_game.phase));
+  if (m_game.phase == GamePhase::ShootOut) {
+    beginShot();
+  } else {
+    beginReady(m_game.kickOff);
+  }
+}
+
 void RefereeTable::changeSides() {
   if (!m_rules.changeSides) return;
   swapSides(m_world);
   for (std::size_t i = 0; i < m_world.robots.size(); ++i) {
     if (teamOf(i) < 0) continue;
-    // Carried over: everybody at once, so that nobody is in the way.
+    // All robots are placed at once, so that none is in the way.
     const Pose& pose = m_now.robots[i].pose;
     const double yaw = std::remainder(pose.yaw + std::numbers::pi, 2.0 * std::numbers::pi);
     putRobot(i, {{-pose.position.x, -pose.position.y}, yaw});
@@ -125,7 +142,7 @@ int RefereeTable::kickingOff(int half) const {
 }
 
 void RefereeTable::nextHalf() {
-  const GameState::Countdown shown = m_game.countdown;
+  const Game::Countdown shown = m_game.countdown;
   if (m_game.half == 1) {
     m_game.half = 2;
   } else {
@@ -152,7 +169,7 @@ void RefereeTable::beginPhase(GamePhase phase) {
   m_game.half = 2;
   m_game.clock = ticks(m_rules.shotTime);
   m_game.clockUse = ClockUse::Full;
-  m_game.shooter = GameState::noTeam;
+  m_game.shooter = Game::noTeam;
   m_game.breakLeft = ticks(m_rules.beforeHalf);
   pardonAll();
   freeBall({});
@@ -185,12 +202,12 @@ void RefereeTable::runClocks() {
   if (m_game.hidden > 0) --m_game.hidden;
   if (m_game.breakLeft > 0) --m_game.breakLeft;
   if (m_game.dropIn.ticks >= 0) ++m_game.dropIn.ticks;
-  if (m_game.touch.robot != 0) ++m_game.touch.ticks;
+  if (m_memory.touch.robot != 0) ++m_memory.touch.ticks;
 }
 
 /// What goes on by itself, by timers of the rules or of the automatic referee.
 void RefereeTable::whistle() {
-  if (m_game.obeyed) return;
+  if (m_memory.obeyed) return;
   const bool automatic = m_rules.automatic;
   // A half that has begun also runs out while robots walk to their places.
   const bool waits = m_game.state == PlayState::Ready || m_game.state == PlayState::Set;
@@ -200,7 +217,11 @@ void RefereeTable::whistle() {
   }
   switch (m_game.state) {
     case PlayState::Initial:
-      if (!automatic || m_game.breakLeft > 0 || m_game.phase == GamePhase::Timeout) break;
+      if (automatic && m_game.phase == GamePhase::Timeout) {
+        if (timeoutIsOver()) endTimeout();
+        break;
+      }
+      if (!automatic || m_game.breakLeft > 0) break;
       if (m_game.phase == GamePhase::ShootOut) {
         beginShot();
       } else {
@@ -230,6 +251,9 @@ void RefereeTable::whistle() {
     case PlayState::Finished:
       if (automatic && !m_game.over) afterFinished();
       break;
+    case PlayState::Standby:
+    case PlayState::Unknown:
+      break;
   }
 }
 
@@ -257,7 +281,9 @@ void RefereeTable::afterFinished() {
   } else {
     m_game.over = true;
   }
-  if (m_game.over) report(EventKind::FinalWhistle);
+  if (!m_game.over) return;
+  if (const auto winner = tossWinner(m_world)) report(EventKind::CoinToss, *winner);
+  report(EventKind::FinalWhistle);
 }
 
 /// What every display of a match reads.

@@ -24,6 +24,7 @@ class RefereeTable {
                std::vector<Event>& events)
       : m_world(world),
         m_game(*world.game),
+        m_memory(world.refereeMemory),
         m_rules(*world.settings.referee),
         m_conduct(conductOf(m_rules.style)),
         m_field(world.settings.field),
@@ -48,6 +49,8 @@ class RefereeTable {
   void finish();
   void nextHalf();
   void beginPhase(GamePhase phase);
+  bool timeoutIsOver() const;
+  void endTimeout();
   void changeSides();
   int kickingOff(int half) const;
   void runClocks();
@@ -64,7 +67,6 @@ class RefereeTable {
   void nextStep();
   void inPlay();
   void dropBall();
-  Point placeOf(SetPlay play, int team, const Point& where) const;
   void beginShot();
   void endShot();
   void freeBall(const Point& place);
@@ -125,7 +127,8 @@ class RefereeTable {
   Point clamped(const Point& p, double inside) const;
 
   WorldState& m_world;
-  GameState& m_game;
+  Game& m_game;
+  RefereeMemory& m_memory;
   const RefereeRules& m_rules;
   const RefereeConduct m_conduct;
   const FieldSpec& m_field;
@@ -137,7 +140,7 @@ class RefereeTable {
 
 /// Whether a robot with this penalty waits on the field.
 inline bool staysOnField(PenaltyKind penalty) {
-  return penalty == PenaltyKind::MotionInSet || penalty == PenaltyKind::MotionInStop;
+  return penalty == PenaltyKind::MotionInSet;
 }
 
 /// It plays again; cards stay.

@@ -124,7 +124,7 @@ Result<void> Simulation::call(const RefereeCall& call) {
   return {};
 }
 
-std::span<const Event> Simulation::takeCalled() {
+std::span<const Event> Simulation::drainCalled() {
   return std::span(m_called).subspan(std::exchange(m_calledTaken, m_called.size()));
 }
 
@@ -137,6 +137,10 @@ void Simulation::reportUndone(std::uint32_t cause) {
   m_called.push_back({EventKind::Undone, m_state.tick, {}, static_cast<int>(cause), cause});
 }
 
+void Simulation::reportObeyed(const Game& before, bool joins) {
+  sim::reportObeyed(before, joins, m_state, m_called);
+}
+
 Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   if (rules) {
     TRY(sim::validate(*rules));
@@ -144,6 +148,7 @@ Result<void> Simulation::setReferee(const std::optional<RefereeRules>& rules) {
   const std::optional<RefereeRules> before = std::exchange(m_state.settings.referee, rules);
   if (!rules) {
     m_state.game.reset();
+    m_state.refereeMemory = {};
     return {};
   }
   snapshot(m_seen);
@@ -177,7 +182,8 @@ Result<void> Simulation::restore(const WorldState& state) {
   if (state.settings.referee) {
     TRY(sim::validate(*state.settings.referee));
   }
-  if (state.game && (!state.settings.referee || !isPlausible(*state.game, state.robots.size()))) {
+  if (state.game && (!state.settings.referee ||
+                     !isPlausible(*state.game, state.refereeMemory, state.robots.size()))) {
     return failure(ErrorCode::InvalidArgument,
                    "The saved state contains a game, but no referee rules are active.");
   }
@@ -250,11 +256,12 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
   if (!isFinite(pose)) {
     return failure(ErrorCode::InvalidArgument, "A robot's pose must be finite numbers.");
   }
+  if (m_state.game) TRY(checkTeam(*m_state.game, identity.team));
   TRY(validate(model));
   m_state.robots.push_back(identity);
   m_state.models.push_back(model);
   m_state.statistics.emplace_back();
-  if (m_state.game) m_state.game->watches.emplace_back();
+  if (m_state.game) m_state.refereeMemory.watches.emplace_back();
   const double radius = robotRadius(m_state, robotCount() - 1);
   m_model->robotAdded(m_state,
                       {insideWalls(m_state.settings.field, pose.position, radius), pose.yaw});
@@ -269,7 +276,8 @@ Result<void> Simulation::removeRobot(RobotId id) {
   m_state.robots.erase(m_state.robots.begin() + offset);
   m_state.models.erase(m_state.models.begin() + offset);
   m_state.statistics.erase(m_state.statistics.begin() + offset);
-  if (m_state.game) m_state.game->watches.erase(m_state.game->watches.begin() + offset);
+  if (m_state.game)
+    m_state.refereeMemory.watches.erase(m_state.refereeMemory.watches.begin() + offset);
   m_model->robotRemoved(m_state, *index);
   m_model->settingsChanged(m_state);
   return {};

@@ -75,10 +75,6 @@ static_assert([] {
 
 }  // namespace
 
-std::span<const Action> actionTable() {
-  return table;
-}
-
 const Action* findAction(int code) {
   const bool known = code >= 0 && code < static_cast<int>(table.size());
   return known ? &table[static_cast<std::size_t>(code)] : nullptr;

@@ -52,15 +52,25 @@ const std::array<FieldSpec, 8>& fields() {
       f.surface = grass;
       return f;
     };
+    // Lines, marks and arcs: the drawings of the league of 2026 (HSL-Rules, figs/FieldGenerator).
+    const auto soccer = [](FieldSpec f, double lineWidth, double mark, double arc) {
+      f.lineWidth = lineWidth;
+      f.markDiameter = mark;
+      f.cornerArcRadius = arc;
+      return f;
+    };
     return std::array<FieldSpec, 8>{
         FieldSpec{},
         rules("kid-2016", 9, 6, 0.7, 1.8, 1.1, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
         rules("all-2017", 9, 6, 0.7, 2.6, 1.8, 5, 0, 0, 2.1, 1.5, fifa1, 0.13),
         rules("kid-2020", 9, 6, 1, 2.6, 1.2, 3, 2, 5, 1.5, 1.5, fifa1, 0.13),
         rules("adult-2020", 14, 9, 1, 2.6, 1.8, 4, 3, 6, 2.1, 3, fifa5, 0.28),
-        rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5, fifa1, 0.13),
-        rules("middle-2026", 14, 9, 1, 2.4, 1.5, 4, 3, 6, 2, 3, fifa3, 0.22),
-        rules("large-2026", 22, 14, 1, 3.0, 2.0, 4, 3.5, 7, 2.5, 4, fifa5, 0.28),
+        soccer(rules("small-2026", 9, 6, 1, 1.8, 1.2, 3, 2, 4, 1.5, 1.5, fifa1, 0.13), 0.05, 0.1,
+               0),
+        soccer(rules("middle-2026", 14, 9, 1, 2.4, 1.5, 4, 3, 6, 2, 3, fifa3, 0.22), 0.05, 0.1,
+               0.5),
+        soccer(rules("large-2026", 22, 14, 1, 3.0, 2.0, 5, 3.5, 7, 2.5, 4, fifa5, 0.28), 0.12, 0.15,
+               1),
     };
   }();
   return all;

@@ -40,6 +40,8 @@ FieldLines fieldLines(const FieldSpec& field, double lineWidth) {
     }
   }
   shapes.circleRadius = std::max(field.centreCircleDiameter / 2 - inset, 0.0);
+  shapes.arcRadius = std::max(field.cornerArcRadius - inset, 0.0);
+  if (field.markDiameter > 0) shapes.markRadius = std::max(field.markDiameter / 2, inset);
   return shapes;
 }
 

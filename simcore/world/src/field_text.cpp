@@ -9,7 +9,7 @@
 namespace pitchboard::sim {
 namespace {
 
-constexpr std::size_t longestName = 64;
+constexpr std::size_t maxNameLength = 64;
 
 std::string jsonText(std::string_view text) {
   std::string out = "\"";
@@ -60,7 +60,7 @@ FieldSpec readField(JsonReport& report, const JsonNode& node, const std::string&
   if (const auto base = object.choice("base", fieldNames(), "field")) {
     field = builtInFields()[*base];
   }
-  field.name = object.text("name", "custom", longestName);
+  field.name = object.text("name", "custom", maxNameLength);
   readNumbers(object, fieldParameters, field);
   readNumbers(object, surfaceParameters, field.surface);
   if (const auto valid = validate(field); !valid)

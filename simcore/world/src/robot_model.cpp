@@ -68,7 +68,7 @@ int simulatedVoltage(const RobotModel& model) {
 }
 
 GaitSpeed gaitSpeed(const RobotModel& model, int action, int b) {
-  constexpr int leastFixedB = 10;  // from here on action 8 walks at its full speed
+  constexpr int minFixedB = 10;  // from here on action 8 walks at its full speed
   switch (action) {
     case 1:
       return {model.forwardFast, 0.0, 0.0, true};
@@ -81,7 +81,7 @@ GaitSpeed gaitSpeed(const RobotModel& model, int action, int b) {
     case 7:
       return {0.0, -model.sideways, 0.0, true};
     case 8:
-      return {b < leastFixedB ? model.forwardSlow / leastFixedB * b : model.forwardSlow, 0.0, 0.0,
+      return {b < minFixedB ? model.forwardSlow / minFixedB * b : model.forwardSlow, 0.0, 0.0,
               true};
     case 9:
       return {0.0, model.aroundSideways, -model.aroundTurn, true};

@@ -33,6 +33,7 @@ McapCursor::Kind McapCursor::next() {
       m_damaged = true;
       return Kind::End;
     }
+    m_start = m_at;
     m_at += in.offset();
     if (kind != Kind::End) return kind;
   }

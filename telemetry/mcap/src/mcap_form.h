@@ -30,7 +30,7 @@ bool mayFollow(McapOp before, McapOp op);
 /// Records of this kind can have content of this length.
 bool lengthFits(McapOp op, std::uint64_t length);
 /// The lengths inside the content add up to exactly `length`. `beginning` needs to hold the content
-/// up to its last inner length; longestHead is enough. Without inner lengths: lengthFits().
+/// up to its last inner length; maxHeadLength is enough. Without inner lengths: lengthFits().
 bool formFits(McapOp op, std::string_view beginning, std::uint64_t length);
 /// A record of kind `before` can end at `at`: the file ends there, or what begins there may follow.
 bool mayEnd(const McapSource& source, std::uint64_t at, McapOp before);

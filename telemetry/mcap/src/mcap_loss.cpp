@@ -48,7 +48,7 @@ McapLoss McapReader::Impl::lossOf(const McapChunkInfo& chunk, std::string reason
 }
 
 void McapReader::Impl::lookAtHead(bool found, McapLoss& loss) const {
-  const auto head = parseChunkHead(source.look(loss.offset + recordHead, longestHead),
+  const auto head = parseChunkHead(source.look(loss.offset + recordHead, maxHeadLength),
                                    std::numeric_limits<std::uint64_t>::max());
   if (!head || (head->info.compression != "zstd" && head->info.compression != "lz4")) return;
   const std::uint64_t length = recordHead + head->recordsAt + head->info.compressedSize;

@@ -92,7 +92,10 @@ std::optional<McapStatistics> parseStatistics(std::string_view content) {
   McapStatistics statistics;
   statistics.messages = in.number<std::uint64_t>();
   in.number<std::uint16_t>();
-  for (int i = 0; i < 4; ++i) in.number<std::uint32_t>();
+  in.number<std::uint32_t>();
+  statistics.attachments = in.number<std::uint32_t>();
+  statistics.metadata = in.number<std::uint32_t>();
+  statistics.chunks = in.number<std::uint32_t>();
   statistics.start = in.number<std::uint64_t>();
   statistics.end = in.number<std::uint64_t>();
   RecordReader counts(in.text());

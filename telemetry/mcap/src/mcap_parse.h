@@ -36,6 +36,6 @@ std::optional<AttachmentHead> parseAttachmentHead(std::string_view beginning,
                                                   std::uint64_t contentLength);
 
 /// Longest beginning that the two functions above need.
-inline constexpr std::size_t longestHead = 64 * kibibyte;
+inline constexpr std::size_t maxHeadLength = 64 * kibibyte;
 
 }  // namespace pitchboard::telemetry

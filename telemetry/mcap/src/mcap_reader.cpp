@@ -13,8 +13,8 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::size_t mostProblems = 100;
-constexpr std::uint64_t longestSummary = std::uint64_t{512} << 20;
+constexpr std::size_t maxProblems = 100;
+constexpr std::uint64_t maxSummaryLength = std::uint64_t{512} << 20;
 constexpr std::size_t unpackStep = 256 * kibibyte;
 
 std::string atOffset(std::uint64_t offset) {
@@ -52,15 +52,19 @@ Result<McapReader> McapReader::of(McapSource source, const McapReaderOptions& op
   auto impl = std::make_unique<Impl>(std::move(source), options);
   TRY(impl->readHeader());
   impl->indexed = !options.ignoreSummary && impl->readSummary();
+  impl->growing = !impl->indexed && !footerOf(impl->source) && impl->source.isBeingWritten(true);
   if (!impl->indexed && !impl->scan()) {
     return failure(ErrorCode::Conflict, "Reading was stopped.", impl->name);
   }
   impl->ended = impl->ended || impl->indexed;
+  impl->growing = impl->growing && !impl->ended;
+  impl->whole = impl->indexed || (impl->ended && footerOf(impl->source) && impl->problems.empty() &&
+                                  impl->losses.empty());
   return McapReader(std::move(impl));
 }
 
 void McapReader::Impl::problem(std::uint64_t offset, const std::string& sentence) {
-  if (problems.size() >= mostProblems) return;
+  if (problems.size() >= maxProblems) return;
   problems.push_back("At byte " + std::to_string(offset) + ": " + sentence);
 }
 
@@ -71,13 +75,16 @@ Result<void> McapReader::Impl::readHeader() {
     return tl::unexpected(
         Error{ErrorCode::Unsupported, "This MCAP version is not supported.", source.name()});
   }
+  if (begin.empty()) {
+    return tl::unexpected(Error{ErrorCode::ParseError, "This file is empty.", source.name()});
+  }
   if (begin != magic) {
     return tl::unexpected(Error{ErrorCode::ParseError,
                                 "This is not an MCAP file (wrong magic bytes).", source.name()});
   }
   dataBegin = magic.size();
   const RecordHead head = headIn(source.look(dataBegin, recordHead));
-  const std::string content(source.look(dataBegin + recordHead, longestHead));
+  const std::string content(source.look(dataBegin + recordHead, maxHeadLength));
   RecordReader in(content);
   profile = in.text();
   library = in.text();
@@ -88,7 +95,8 @@ Result<void> McapReader::Impl::readHeader() {
   // One of opcode, length and content may be damaged; then the others tell where it ends.
   problem(dataBegin, "the header is damaged.");
   for (const std::uint64_t length : {head.length, std::uint64_t{in.offset()}}) {
-    if (length > longestHead || !mayEnd(source, dataBegin + recordHead + length, McapOp::Header)) {
+    if (length > maxHeadLength ||
+        !mayEnd(source, dataBegin + recordHead + length, McapOp::Header)) {
       continue;
     }
     dataBegin += recordHead + length;
@@ -103,7 +111,7 @@ bool McapReader::Impl::readSummary() {
   if (!footer || footer->summary == 0) return false;
   const std::uint64_t footerAt = footer->offset, start = footer->summary;
   if (footerAt < dataBegin || start < dataBegin || start > footerAt ||
-      footerAt - start > longestSummary) {
+      footerAt - start > maxSummaryLength) {
     problem(footerAt, "the footer points outside the file; the summary is not used.");
     return false;
   }
@@ -115,8 +123,9 @@ bool McapReader::Impl::readSummary() {
     return false;
   }
   summary.resize(static_cast<std::size_t>(footerAt - start));
-  if (takeSummary(summary)) return true;
-  problem(start, "the summary is damaged; it is not used.");
+  const Summary taken = takeSummary(summary);
+  if (taken == Summary::Complete) return true;
+  if (taken == Summary::Damaged) problem(start, "the summary is damaged; it is not used.");
   schemas.clear();
   channels.clear();
   chunks.clear();
@@ -126,7 +135,7 @@ bool McapReader::Impl::readSummary() {
   return false;
 }
 
-bool McapReader::Impl::takeSummary(std::string_view summary) {
+McapReader::Impl::Summary McapReader::Impl::takeSummary(std::string_view summary) {
   const auto inside = [&](std::uint64_t offset, std::uint64_t length) {
     return offset >= mcapMagic.size() && length >= recordHead && offset <= source.size() &&
            length <= source.size() - offset;
@@ -136,41 +145,41 @@ bool McapReader::Impl::takeSummary(std::string_view summary) {
   while (in.left() > 0) {
     const auto op = static_cast<McapOp>(in.number<std::uint8_t>());
     const auto content = in.bytes(in.number<std::uint64_t>());
-    if (!in.ok()) return false;
+    if (!in.ok()) return Summary::Damaged;
     switch (op) {
       case McapOp::Schema: {
         auto schema = parseSchema(content);
-        if (!schema) return false;
+        if (!schema) return Summary::Damaged;
         schemas.insert_or_assign(schema->id, std::move(*schema));
         break;
       }
       case McapOp::Channel: {
         auto channel = parseChannel(content);
-        if (!channel) return false;
+        if (!channel) return Summary::Damaged;
         channels.insert_or_assign(channel->id, std::move(*channel));
         break;
       }
       case McapOp::ChunkIndex: {
         auto chunk = parseChunkIndex(content);
-        if (!chunk || !inside(chunk->offset, chunk->length)) return false;
+        if (!chunk || !inside(chunk->offset, chunk->length)) return Summary::Damaged;
         chunks.push_back(std::move(*chunk));
         break;
       }
       case McapOp::AttachmentIndex: {
         auto info = parseAttachmentIndex(content);
-        if (!info || !inside(info->offset, info->length)) return false;
+        if (!info || !inside(info->offset, info->length)) return Summary::Damaged;
         attachments.push_back(std::move(*info));
         break;
       }
       case McapOp::MetadataIndex: {
         auto info = parseMetadataIndex(content);
-        if (!info || !inside(info->offset, info->length)) return false;
+        if (!info || !inside(info->offset, info->length)) return Summary::Damaged;
         metadata.push_back(std::move(*info));
         break;
       }
       case McapOp::Statistics: {
         auto found = parseStatistics(content);
-        if (!found) return false;
+        if (!found) return Summary::Damaged;
         statistics = std::move(*found);
         counted = true;
         break;
@@ -182,7 +191,16 @@ bool McapReader::Impl::takeSummary(std::string_view summary) {
   std::sort(chunks.begin(), chunks.end(),
             [](const auto& a, const auto& b) { return a.offset < b.offset; });
   // Without chunks the messages, if any, stand loose in the file and only a walk finds them.
-  return counted && (!chunks.empty() || statistics.messages == 0);
+  const bool isComplete =
+      counted && chunks.size() >= statistics.chunks &&
+      attachments.size() >= statistics.attachments && metadata.size() >= statistics.metadata &&
+      (!chunks.empty() || statistics.messages == 0) &&
+      std::ranges::all_of(statistics.perChannel, [this](const auto& one) {
+        const auto channel = channels.find(one.first);
+        return channel != channels.end() &&
+               (channel->second.schema == 0 || schemas.contains(channel->second.schema));
+      });
+  return isComplete ? Summary::Complete : Summary::Partial;
 }
 
 Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size,
@@ -220,6 +238,38 @@ Result<void> McapReader::Impl::unpack(std::string_view bytes, std::uint64_t size
   return {};
 }
 
+Result<void> McapReader::Impl::unpackLz4(std::string_view bytes, std::uint64_t size,
+                                         std::string& body) const {
+  const auto wrong = [](std::string sentence) {
+    return failure(ErrorCode::ParseError, std::move(sentence));
+  };
+  if (lz4Unpacker == nullptr &&
+      LZ4F_isError(LZ4F_createDecompressionContext(&lz4Unpacker, LZ4F_VERSION))) {
+    return wrong("there is not enough memory for decompressing it");
+  }
+  LZ4F_resetDecompressionContext(lz4Unpacker);
+  body.clear();
+  std::size_t at = 0;
+  for (std::size_t hint = 1; hint != 0;) {
+    // What a chunk says of its size is believed only as far as its packed bytes make it likely.
+    const std::uint64_t room = std::min<std::uint64_t>(
+        size - body.size(), body.empty() ? believedSize(bytes.size()) : unpackStep);
+    const std::size_t begin = body.size();
+    body.resize(begin + static_cast<std::size_t>(room) + 1);  // one more shows what is too long
+    std::size_t got = body.size() - begin, taken = bytes.size() - at;
+    hint =
+        LZ4F_decompress(lz4Unpacker, body.data() + begin, &got, bytes.data() + at, &taken, nullptr);
+    body.resize(begin + got);
+    at += taken;
+    if (LZ4F_isError(hint)) {
+      return wrong(std::string("it cannot be decompressed (") + LZ4F_getErrorName(hint) + ")");
+    }
+    if (body.size() > size || (got == 0 && taken == 0)) break;
+  }
+  if (body.size() != size || at != bytes.size()) return wrong("its size differs from its header");
+  return {};
+}
+
 Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string& body) const {
   const auto wrong = [&](const std::string& why) {
     return tl::unexpected(damaged(source, chunk.offset, "This part is damaged: " + why + "."));
@@ -246,7 +296,8 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
                  " bytes is above the limit");
   }
   const bool plain = head->info.compression.empty();
-  if (!plain && head->info.compression != "zstd") {
+  const bool isLz4 = head->info.compression == "lz4";
+  if (!plain && !isLz4 && head->info.compression != "zstd") {
     return tl::unexpected(Error{ErrorCode::Unsupported,
                                 "This part uses the compression \"" +
                                     head->info.compression.substr(0, 20) +
@@ -258,7 +309,8 @@ Result<void> McapReader::Impl::readChunk(const McapChunkInfo& chunk, std::string
     return wrong("it cannot be read");
   }
   if (!plain) {
-    if (auto done = unpack(packed, head->info.uncompressedSize, body); !done) {
+    const std::uint64_t size = head->info.uncompressedSize;
+    if (auto done = isLz4 ? unpackLz4(packed, size, body) : unpack(packed, size, body); !done) {
       return wrong(done.error().message);
     }
   }
@@ -288,7 +340,7 @@ Result<std::string> McapReader::readAttachment(const McapAttachmentInfo& attachm
     return wrong("there is none here");
   }
   const std::string_view content = std::string_view(record).substr(recordHead);
-  const auto head = parseAttachmentHead(content.substr(0, longestHead), content.size());
+  const auto head = parseAttachmentHead(content.substr(0, maxHeadLength), content.size());
   if (!head) return wrong("its header is invalid");
   const std::size_t covered = head->dataAt + static_cast<std::size_t>(head->info.dataSize);
   const auto crc = RecordReader(content.substr(covered)).number<std::uint32_t>();

@@ -4,7 +4,11 @@
 // What McapReader knows of a file, filled by the summary (mcap_reader.cpp) or by walking through
 // the file (mcap_scan.cpp, mcap_loss.cpp).
 
+#include <lz4frame.h>
 #include <zstd.h>
+#include <functional>
+#include <optional>
+#include <vector>
 
 #include <telemetry/mcap/mcap_reader.h>
 
@@ -17,24 +21,35 @@ struct McapReader::Impl : McapContents {
   McapSource source;
   McapReaderOptions options;
   ZSTD_DCtx* unpacker = ZSTD_createDCtx();
-  std::uint64_t dataBegin = 0;  ///< behind the header
+  mutable LZ4F_dctx* lz4Unpacker = nullptr;  ///< made with the first such chunk
+  std::uint64_t dataBegin = 0;               ///< behind the header
   mutable std::string packed;
 
   Impl(McapSource s, const McapReaderOptions& o) : source(std::move(s)), options(o) {
     name = source.name();
     fileBytes = source.size();
   }
-  ~Impl() { ZSTD_freeDCtx(unpacker); }
+  ~Impl() {
+    ZSTD_freeDCtx(unpacker);
+    LZ4F_freeDecompressionContext(lz4Unpacker);
+  }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   void problem(std::uint64_t offset, const std::string& sentence);
   Result<void> readHeader();
-  /// False: there is none, or it cannot be trusted (then nothing was taken from it).
+  /// False: there is none, it cannot be trusted, or it leaves out what another program did not have
+  /// to write. Then nothing was taken from it.
   bool readSummary();
   /// False: options.progress said stop.
   bool scan();
   Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
+  /// Reads a chunk without the messages of unwanted channels. False: that is not possible, and
+  /// `body` is of no use.
+  bool pick(const McapChunkInfo& chunk, const std::function<bool(std::uint16_t)>& isWanted,
+            std::string& body) const;
+  std::optional<std::vector<std::uint64_t>> unwantedIn(
+      const McapChunkInfo& chunk, const std::function<bool(std::uint16_t)>& isWanted) const;
   McapLoss lossOf(const McapChunkInfo& chunk, std::string reason) const;
   /// Adds what the message indexes from `at` on say of a part that is lost; where they end.
   std::uint64_t addIndexes(std::uint64_t at, McapLoss& loss) const;
@@ -46,9 +61,12 @@ struct McapReader::Impl : McapContents {
   /// What unpack() gets ready for at once, whatever the chunk says of its size.
   static std::uint64_t believedSize(std::uint64_t packed) { return packed * 64 + (1U << 20); }
   Result<void> unpack(std::string_view bytes, std::uint64_t size, std::string& body) const;
+  /// The same for a frame of LZ4.
+  Result<void> unpackLz4(std::string_view bytes, std::uint64_t size, std::string& body) const;
 
  private:
-  bool takeSummary(std::string_view summary);
+  enum class Summary : std::uint8_t { Damaged, Partial, Complete };
+  Summary takeSummary(std::string_view summary);
 };
 
 }  // namespace pitchboard::telemetry

@@ -15,13 +15,13 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::uint64_t longestLooseRun = 4U << 20;
+constexpr std::uint64_t maxLooseRunLength = 4U << 20;
 constexpr std::size_t searchStep = 1U << 20;
 /// No recording unpacks to more than this many times its size; a file that does is made to harm.
-constexpr std::uint64_t mostExpansion = 2000;
+constexpr std::uint64_t maxExpansion = 2000;
 constexpr std::uint64_t freeExpansion = 256U << 20;
 /// What may be unpacked in vain at places that looked like chunks, in sizes of the file.
-constexpr std::uint64_t mostRetries = 16;
+constexpr std::uint64_t maxRetries = 16;
 constexpr std::uint64_t freeRetries = 64U << 20;
 
 }  // namespace
@@ -32,7 +32,7 @@ class McapScan {
 
   bool run() {
     m_at = m_reader.dataBegin;
-    m_retries = freeRetries + mostRetries * m_source.size();
+    m_retries = freeRetries + maxRetries * m_source.size();
     while (!m_done && m_at < m_source.size()) {
       if (!report(m_at)) return false;
       step();
@@ -40,7 +40,7 @@ class McapScan {
     }
     closeRun();
     m_reader.boundLosses();
-    if (!m_done) {
+    if (!m_done && !m_reader.growing) {
       m_reader.problem(m_source.size(), "the file has no end mark: the recording was cut off.");
     }
     return true;
@@ -109,7 +109,7 @@ class McapScan {
 
   std::string_view contentAt(std::uint64_t record, std::uint64_t length) const {
     return m_source.look(record + recordHead,
-                         static_cast<std::size_t>(std::min<std::uint64_t>(length, longestHead)));
+                         static_cast<std::size_t>(std::min<std::uint64_t>(length, maxHeadLength)));
   }
 
   bool isFooter(std::uint64_t at) const {
@@ -145,7 +145,7 @@ class McapScan {
       lose(m_reader.lossOf(chunk, read.error().message));
     }
     m_unpacked += cost;
-    if (m_unpacked > freeExpansion && m_unpacked / mostExpansion > m_source.size()) {
+    if (m_unpacked > freeExpansion && m_unpacked / maxExpansion > m_source.size()) {
       lose({.offset = m_at,
             .bytes = m_source.size() - m_at,
             .reason = "The file decompresses to far more data than any recording has; the rest is "
@@ -219,7 +219,7 @@ class McapScan {
       return false;
     }
     m_indexDue = 0;
-    if (m_run && end - m_run->offset > longestLooseRun) closeRun();
+    if (m_run && end - m_run->offset > maxLooseRunLength) closeRun();
     if (!m_run) {
       m_run.emplace();
       m_run->loose = true;
@@ -254,7 +254,7 @@ class McapScan {
       const std::string_view window = m_source.look(m_at, searchStep);
       const bool last = window.size() < searchStep;
       // The beginning of every record that is looked at lies in the window.
-      const std::size_t until = last ? window.size() : window.size() - longestHead;
+      const std::size_t until = last ? window.size() : window.size() - maxHeadLength;
       std::size_t i = 0;
       RecordHead head;
       for (; i < until && !found; i += found ? 0 : 1) found = mayResume(window.substr(i), i, head);
@@ -270,6 +270,10 @@ class McapScan {
     m_last = McapOp::Header;
     const std::uint64_t indexDue = std::exchange(m_indexDue, 0);
     loss.bytes = m_at - from;
+    if (!found && m_reader.growing) {  // the rest of a record that is just being written
+      m_done = true;
+      return;
+    }
     if (loss.bytes == indexDue || (!found && loss.bytes < indexDue)) {
       m_reader.problem(from, "an index of messages is damaged; no message is lost.");
       return;
@@ -290,7 +294,7 @@ class McapScan {
     const std::uint64_t at = m_at + i;
     if (!head.whole || head.length > m_source.size() - at - recordHead) return false;
     const std::string_view content = bytes.substr(
-        recordHead, static_cast<std::size_t>(std::min<std::uint64_t>(head.length, longestHead)));
+        recordHead, static_cast<std::size_t>(std::min<std::uint64_t>(head.length, maxHeadLength)));
     if (!formFits(head.op, content, head.length)) return false;
     switch (head.op) {
       case McapOp::Chunk:

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <base/byte_sizes.h>
+#include <base/new_file.h>
 #include <base/system_reason.h>
 
 namespace pitchboard::telemetry {
@@ -28,6 +29,8 @@ Result<McapSource> McapSource::file(const std::string& path) {
     return failure(ErrorCode::SystemError,
                    "The file cannot be opened: " + systemReason(errno) + ".", path);
   }
+  // Asked first: who has closed it by then has written all of it.
+  source.m_isBeingWritten = pitchboard::isBeingWritten(source.m_fd.get());
   struct stat status {};
   if (::fstat(source.m_fd.get(), &status) != 0 || !S_ISREG(status.st_mode)) {
     return failure(ErrorCode::InvalidArgument, "This is not a file.", path);
@@ -44,6 +47,11 @@ McapSource McapSource::memory(std::string bytes) {
   return source;
 }
 
+bool McapSource::isBeingWritten(bool othersToo) const {
+  return m_isBeingWritten ||
+         (othersToo && m_fd && pitchboard::isBeingWritten(m_fd.get(), othersToo));
+}
+
 std::size_t McapSource::readSome(std::uint64_t offset, char* to, std::size_t count) const {
   if (offset >= m_size) return 0;
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, m_size - offset));
@@ -56,7 +64,7 @@ std::size_t McapSource::readSome(std::uint64_t offset, char* to, std::size_t cou
     const ssize_t got =
         ::pread(m_fd.get(), to + done, count - done, static_cast<off_t>(offset + done));
     if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) break;  // cut meanwhile, or a bad disk: what is not there is not read
+    if (got <= 0) break;  // the file was truncated meanwhile, or the disk failed
     done += static_cast<std::size_t>(got);
   }
   return done;

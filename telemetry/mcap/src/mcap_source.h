@@ -19,9 +19,16 @@ class McapSource {
   static McapSource memory(std::string bytes);
 
   std::uint64_t size() const { return m_size; }
+  /// Returns whether a recorder of ours had the file open when its size was read; with `othersToo`
+  /// also whether any program has it open for writing now.
+  bool isBeingWritten(bool othersToo) const;
   const std::string& name() const { return m_name; }
   /// Exactly `count` bytes from `offset`, into `out`. False: they are not there.
   bool read(std::uint64_t offset, std::size_t count, std::string& out) const;
+  /// Exactly `count` bytes from `offset`, to `to`. False: they are not there.
+  bool readInto(std::uint64_t offset, char* to, std::size_t count) const {
+    return readSome(offset, to, count) == count;
+  }
   /// At most `count` bytes (fewer at the end); small ones come from a window that is kept. Valid
   /// until the next call.
   std::string_view look(std::uint64_t offset, std::size_t count) const;
@@ -34,6 +41,7 @@ class McapSource {
   std::string m_bytes;
   UniqueFd m_fd;
   std::uint64_t m_size = 0;
+  bool m_isBeingWritten = false;
   mutable std::string m_window;
   mutable std::uint64_t m_windowOffset = 0;
 };

@@ -5,16 +5,110 @@
 #include <zstd.h>
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <base/new_file.h>
 #include <base/try.h>
+#include <telemetry/mcap/mcap_chunk.h>
 
 #include "disk_sync.h"
 #include "mcap_bytes.h"
-#include "mcap_summary.h"
 
 namespace pitchboard::telemetry {
+
+/// What the end of an MCAP file tells of the whole: collected by the McapWriter, which owns it,
+/// while it writes. One thread at a time.
+struct McapSummary {
+  std::vector<McapSchema> schemas;
+  std::vector<McapChannel> channels;
+  std::string chunkIndexes, attachmentIndexes, metadataIndexes;  ///< records, ready
+  std::uint32_t chunks = 0, attachments = 0, metadatas = 0;
+  McapStatistics statistics;
+
+  /// Bytes that it will take, about.
+  std::uint64_t size() const;
+  /// All schemas and channels once more.
+  McapChunk definitions() const;
+  /// Summary, summary offsets and footer, from file offset `begin` on.
+  std::string records(std::uint64_t begin) const;
+};
+
+std::uint64_t McapSummary::size() const {
+  std::uint64_t size = chunkIndexes.size() + attachmentIndexes.size() + metadataIndexes.size();
+  for (const McapSchema& schema : schemas) size += schema.data.size() + schema.name.size() + 64;
+  for (const McapChannel& channel : channels) {
+    size += channel.topic.size() + 64;
+    for (const auto& [key, value] : channel.metadata) size += key.size() + value.size() + 8;
+  }
+  return size;
+}
+
+McapChunk McapSummary::definitions() const {
+  McapChunk chunk;
+  for (const McapSchema& schema : schemas) chunk.add(schema);
+  for (const McapChannel& channel : channels) chunk.add(channel);
+  return chunk;
+}
+
+std::string McapSummary::records(std::uint64_t begin) const {
+  struct Group {
+    McapOp op;
+    std::size_t start, length;
+  };
+  std::string text;
+  std::vector<Group> groups;
+  const auto group = [&](McapOp op, auto&& fill) {
+    const std::size_t start = text.size();
+    fill();
+    if (text.size() > start) groups.push_back({op, start, text.size() - start});
+  };
+  group(McapOp::Schema, [&] {
+    for (const auto& schema : schemas) putSchema(text, schema);
+  });
+  group(McapOp::Channel, [&] {
+    for (const auto& channel : channels) putChannel(text, channel);
+  });
+  group(McapOp::ChunkIndex, [&] { text += chunkIndexes; });
+  group(McapOp::AttachmentIndex, [&] { text += attachmentIndexes; });
+  group(McapOp::MetadataIndex, [&] { text += metadataIndexes; });
+  group(McapOp::Statistics, [&] {
+    const auto record = beginRecord(text, McapOp::Statistics);
+    putNumber(text, statistics.messages);
+    putNumber(text, static_cast<std::uint16_t>(schemas.size()));
+    putNumber(text, static_cast<std::uint32_t>(channels.size()));
+    putNumber(text, attachments);
+    putNumber(text, metadatas);
+    putNumber(text, chunks);
+    putNumber(text, statistics.start);
+    putNumber(text, statistics.end);
+    putNumber(text, static_cast<std::uint32_t>(statistics.perChannel.size() * 10));
+    for (const auto& [channel, count] : statistics.perChannel) {
+      putNumber(text, channel);
+      putNumber(text, count);
+    }
+    endRecord(text, record);
+  });
+  const std::size_t offsets = text.size();
+  for (const Group& g : groups) {
+    const auto record = beginRecord(text, McapOp::SummaryOffset);
+    text += static_cast<char>(g.op);
+    putNumber(text, begin + g.start);
+    putNumber(text, static_cast<std::uint64_t>(g.length));
+    endRecord(text, record);
+  }
+  const auto footer = beginRecord(text, McapOp::Footer);
+  putNumber(text, begin);
+  putNumber(text, begin + offsets);
+  // The checksum covers the footer's head, whose length is therefore written first.
+  setNumber(text, footer - 8, static_cast<std::uint64_t>(footerLength));
+  putNumber(text, extendedCrc(0, text));
+  text.append(mcapMagic.data(), mcapMagic.size());
+  return text;
+}
+
 namespace {
 
 /// Room that is kept behind the file for the summary, beyond what the summary needs so far.
@@ -23,7 +117,8 @@ constexpr std::uint64_t spareRoom = 64 * kibibyte;
 /// Chunks after which all definitions are repeated; in the beginning of a file more often.
 constexpr std::uint64_t chunksBetweenRepeats = 64;
 
-/// Adds what is not known by its number yet; true when there was something.
+/// Adds schemas and channels that are not known by their numbers yet. Returns whether there were
+/// any.
 template <class Definition>
 bool addNew(std::vector<Definition>& known, const std::vector<Definition>& definitions) {
   const std::size_t before = known.size();

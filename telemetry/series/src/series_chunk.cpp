@@ -9,16 +9,24 @@ Staging::Staging(const Layout& layout)
     : times(std::make_unique_for_overwrite<double[]>(blockRows)),
       words(std::make_unique_for_overwrite<std::uint32_t[]>(std::size_t{blockRows} *
                                                             layout.keptWords)),
-      values(std::make_unique_for_overwrite<double[]>(std::size_t{blockRows} * layout.values)),
-      bytes(sizeof(Staging) +
-            blockRows * (8 + std::size_t{4} * layout.keptWords + std::size_t{8} * layout.values)) {}
+      values(std::make_unique_for_overwrite<double[]>(std::size_t{blockRows} * layout.keptValues)),
+      bytes(sizeof(Staging) + blockRows * (8 + std::size_t{4} * layout.keptWords +
+                                           std::size_t{8} * layout.keptValues)) {}
 
 bool Staging::put(const RowView& row, const Layout& layout) {
   const std::uint32_t at = rows.load(std::memory_order_relaxed);
   times[at] = row.time;
-  auto* kept = std::ranges::copy(row.words, words.get() + std::size_t{at} * layout.keptWords).out;
-  for (const Losable& one : layout.losable) *kept++ = one.shown(row.words);
-  std::ranges::copy(row.values, values.get() + std::size_t{at} * layout.values);
+  auto* word = std::ranges::copy(row.words, words.get() + std::size_t{at} * layout.keptWords).out;
+  auto* value =
+      std::ranges::copy(row.values, values.get() + std::size_t{at} * layout.keptValues).out;
+  for (const Losable& one : layout.losable) {
+    const bool isLost = one.isLost(row);
+    if (one.slot.type == ColumnType::Float64)
+      *value++ = isLost ? std::numeric_limits<double>::quiet_NaN() : row.values[one.slot.index];
+    else
+      *word++ = isLost ? std::bit_cast<std::uint32_t>(std::numeric_limits<float>::quiet_NaN())
+                       : row.words[one.slot.index];
+  }
   rows.store(at + 1, std::memory_order_release);
   return at + 1 < blockRows;
 }
@@ -58,7 +66,7 @@ std::shared_ptr<const Chunk> Chunk::ofStaging(const Staging& full, const Layout&
                 chunk->m_columns[c] = Column::ofBlock(typed.data());
               }
             });
-  transpose(full.values.get(), layout.values,
+  transpose(full.values.get(), layout.keptValues,
             [&](std::uint32_t index, const std::array<double, blockRows>& values) {
               chunk->m_columns[layout.valueColumns[index]] = Column::ofBlock(values.data());
             });
@@ -83,22 +91,30 @@ std::shared_ptr<const Chunk> Chunk::join(std::span<const ChunkView> blocks, cons
   return chunk;
 }
 
-std::shared_ptr<const Chunk> Chunk::widened(const Layout& narrow, const Layout& wide) const {
+std::shared_ptr<const Chunk> Chunk::converted(const Layout& from, const Layout& to) const {
   auto chunk = std::make_shared<Chunk>();
   chunk->m_times = m_times;
-  chunk->m_columns.reserve(wide.slots.size());
-  const auto take = [&](std::size_t slot) {
-    withType(narrow.slots[slot].type, [&](auto zero) {
-      chunk->m_columns.push_back(m_columns[slot].copy<decltype(zero)>(blocks()));
-    });
+  chunk->m_columns.reserve(to.slots.size());
+  const auto take = [&](std::uint32_t slot, ColumnType type) {
+    chunk->m_columns.push_back(withType(from.slots[slot].type, [&](auto zero) {
+      using T = decltype(zero);
+      return from.slots[slot].type == type ? m_columns[slot].copy<T>(blocks())
+                                           : m_columns[slot].numbers<T>(blocks());
+    }));
   };
-  const std::size_t known = narrow.info.columns.size();
-  for (std::size_t c = 0; c < known; ++c) take(c);
-  for (std::size_t c = known; c < wide.info.columns.size(); ++c) {
-    chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
+  for (std::uint32_t c = 0; c < to.info.columns.size(); ++c) {
+    if (from.hasColumn(c))
+      take(c, to.slots[c].type);
+    else
+      chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
   }
-  for (std::size_t slot = known; slot < narrow.slots.size(); ++slot) take(slot);
-  chunk->count(wide);
+  for (const Losable& one : to.losable) {
+    if (from.hasColumn(one.column))
+      take(from.shown(one.column), one.slot.type);
+    else
+      chunk->m_columns.push_back(Column::ofConstant(std::numeric_limits<double>::quiet_NaN()));
+  }
+  chunk->count(to);
   return chunk;
 }
 

@@ -23,7 +23,7 @@ struct Staging {
   std::atomic<std::uint32_t> rows{0};
   std::unique_ptr<double[]> times;         // [64]
   std::unique_ptr<std::uint32_t[]> words;  // [64][layout.keptWords]
-  std::unique_ptr<double[]> values;        // [64][layout.values]
+  std::unique_ptr<double[]> values;        // [64][layout.keptValues]
   std::size_t bytes = 0;
 };
 
@@ -35,8 +35,9 @@ class Chunk {
   static std::shared_ptr<const Chunk> ofStaging(const Staging& full, const Layout& layout);
   static std::shared_ptr<const Chunk> join(std::span<const ChunkView> blocks, const Layout& layout);
 
-  /// The same rows, until now of `narrow`, with the further columns of `wide`, which are holes.
-  std::shared_ptr<const Chunk> widened(const Layout& narrow, const Layout& wide) const;
+  /// The same rows, until now of `from`, with the columns that mergedColumns() made of it. Columns
+  /// that they did not have are holes.
+  std::shared_ptr<const Chunk> converted(const Layout& from, const Layout& to) const;
 
   std::uint32_t blocks() const { return static_cast<std::uint32_t>(m_times.size()) / blockRows; }
   std::uint32_t rows() const { return static_cast<std::uint32_t>(m_times.size()); }

@@ -197,6 +197,23 @@ class Column {
     return out;
   }
 
+  /// The same values as doubles. `blocks`: of the chunk.
+  template <class T>
+  Column numbers(std::uint32_t blocks) const {
+    if (!m_bytes) return ofConstant(static_cast<double>(constant<T>()));
+    std::array<Column, chunkBlocks> parts;
+    std::array<const Column*, chunkBlocks> all{};
+    for (std::uint32_t block = 0; block < blocks; ++block) {
+      std::array<double, blockRows> values;
+      for (std::uint32_t row = 0; row < blockRows; ++row) {
+        values[row] = static_cast<double>(at<T>(block * blockRows + row, blocks));
+      }
+      parts[block] = ofBlock(values.data());
+      all[block] = &parts[block];
+    }
+    return blocks == 1 ? std::move(parts[0]) : join<double>(all);
+  }
+
   bool isConstant() const { return !m_bytes; }
   bool isRaw(std::uint32_t block) const { return (m_raw >> block & 1) != 0; }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "series_group.h"
 
-#include <limits>
+#include <algorithm>
 
 namespace pitchboard::telemetry::series {
 
 Group::Group(std::shared_ptr<const Layout> layout) {
+  setInputSize(layout->info.columns);
   m_next.layout = std::move(layout);
   empty();
 }
@@ -19,17 +20,17 @@ std::unique_ptr<Group> Group::branch() const {
   return std::unique_ptr<Group>(new Group(m_state));
 }
 
-Group::Put Group::put(const RowView& row) {
+Group::Put Group::put(const RowView& given) {
   const std::lock_guard lock(m_write);
-  const Layout& layout = *m_next.layout;
-  if (!m_staging || !std::isfinite(row.time) || row.words.size() != layout.words ||
-      row.values.size() != layout.values) {
+  if (!m_staging || !std::isfinite(given.time) || given.words.size() != m_inputWords ||
+      given.values.size() != m_inputValues) {
     return Put::Refused;
   }
-  if (m_any && row.time < m_lastTime) return Put::GoesBack;
-  m_lastTime = row.time;
+  if (m_any && given.time < m_lastTime) return Put::GoesBack;
+  m_lastTime = given.time;
   m_any = true;
-  return m_staging->put(row, layout) ? Put::Done : Put::BlockFull;
+  const RowView row = m_input.convert(given, m_words, m_values);
+  return m_staging->put(row, *m_next.layout) ? Put::Done : Put::BlockFull;
 }
 
 void Group::newStaging() {
@@ -117,35 +118,69 @@ void Group::empty() {
   publish();
 }
 
-void Group::setLayout(std::shared_ptr<const Layout> layout) {
+bool Group::setInfo(const GroupInfo& info) {
   const std::lock_guard lock(m_write);
-  m_next.layout = std::move(layout);
+  if (info == (m_given ? *m_given : m_next.layout->info)) return false;
+  const auto layout = std::make_shared<const Layout>(
+      GroupInfo{info.name, mergedColumns(m_next.layout->info.columns, info.columns), info.robot,
+                info.match, info.id});
+  const bool isSame = std::ranges::equal(layout->info.columns, m_next.layout->info.columns,
+                                         [](const ColumnInfo& a, const ColumnInfo& b) {
+                                           return a.type == b.type && a.lost == b.lost;
+                                         });
+  m_input = RowMap(info.columns, layout->info.columns);
+  m_given.reset();
+  if (!m_input.isIdentity()) m_given = std::make_unique<const GroupInfo>(info);
+  setInputSize(info.columns);
+  if (isSame)
+    m_next.layout = layout;
+  else
+    convertTo(layout);
+  publish();
+  return true;
+}
+
+void Group::describe(const GroupInfo& now) {
+  const std::lock_guard lock(m_write);
+  const auto described = [&](GroupInfo info) {
+    info.name = now.name;
+    info.robot = now.robot;
+    info.match = now.match;
+    return info;
+  };
+  if (m_given) m_given = std::make_unique<const GroupInfo>(described(*m_given));
+  m_next.layout = std::make_shared<const Layout>(described(m_next.layout->info));
   publish();
 }
 
-void Group::widen(std::shared_ptr<const Layout> layout) {
-  const std::lock_guard lock(m_write);
+void Group::setInputSize(const std::vector<ColumnInfo>& columns) {
+  m_inputValues =
+      static_cast<std::size_t>(std::ranges::count(columns, ColumnType::Float64, &ColumnInfo::type));
+  m_inputWords = columns.size() - m_inputValues;
+}
+
+/// Under m_write.
+void Group::convertTo(const std::shared_ptr<const Layout>& layout) {
   const auto now = view();
   const std::size_t staged = m_staging->rows.load(std::memory_order_relaxed);
-  const auto widened = [&](const ChunkView& unit) {
-    return ChunkView(unit.chunk->widened(*m_next.layout, *layout));
+  const auto converted = [&](const ChunkView& unit) {
+    return ChunkView(unit.chunk->converted(*m_next.layout, *layout));
   };
   auto full = std::make_shared<Units>();
   full->reserve(m_next.full->size());
-  for (const ChunkView& unit : *m_next.full) full->push_back(widened(unit));
+  for (const ChunkView& unit : *m_next.full) full->push_back(converted(unit));
   m_next.full = std::move(full);
-  for (ChunkView& unit : m_next.blocks) unit = widened(unit);
-  m_next.layout = std::move(layout);
+  for (ChunkView& unit : m_next.blocks) unit = converted(unit);
+  const RowMap map(m_next.layout->info.columns, layout->info.columns);
+  m_next.layout = layout;
   newStaging();
   countBytes();
   std::vector<std::uint32_t> words;
   std::vector<double> values;
   for (std::size_t row = now->rows() - staged; row < now->rows(); ++row) {
     const double time = now->row(row, words, values);
-    values.resize(m_next.layout->values, std::numeric_limits<double>::quiet_NaN());
-    m_staging->put({time, words, values}, *m_next.layout);
+    m_staging->put(map.convert({time, words, values}, m_words, m_values), *m_next.layout);
   }
-  publish();
 }
 
 std::optional<double> Group::endOfOldest() const {

@@ -9,6 +9,8 @@
 #include <memory>
 #include <mutex>
 
+#include <telemetry/series/column_merge.h>
+
 #include "series_view.h"
 
 namespace pitchboard::telemetry::series {
@@ -29,10 +31,11 @@ class Group {
   void closeBlock();
   void truncate(double time);
   void clear();
-  /// The same columns with other attributes or descriptions.
-  void setLayout(std::shared_ptr<const Layout> layout);
-  /// The same, and further Float64 columns behind them, which are holes in the rows so far.
-  void widen(std::shared_ptr<const Layout> layout);
+  /// Rows come with these columns from now on, and the group has them beside those that it had.
+  /// False: it is as before.
+  bool setInfo(const GroupInfo& info);
+  /// Another name and other facts; rows come with the same columns as before.
+  void describe(const GroupInfo& now);
   /// Time of the last row of the oldest chunk; nothing when only the staging block is left.
   std::optional<double> endOfOldest() const;
   /// Lets the oldest chunk go.
@@ -49,6 +52,8 @@ class Group {
   void publish();
   void countBytes();
   void newStaging();
+  void setInputSize(const std::vector<ColumnInfo>& columns);
+  void convertTo(const std::shared_ptr<const Layout>& layout);
 
   std::mutex m_write;                  // of m_staging, m_lastTime, m_any; after the structure lock
   std::shared_ptr<Staging> m_staging;  // null: for reading
@@ -56,6 +61,13 @@ class Group {
   std::size_t m_bytes = 0;
   double m_lastTime = 0.0;
   bool m_any = false;
+  // Of the rows that come, under m_write too: they may have fewer columns than the group, in
+  // another order.
+  RowMap m_input;
+  std::unique_ptr<const GroupInfo> m_given;  // as it was set, if it is not that of the group
+  std::size_t m_inputWords = 0, m_inputValues = 0;
+  std::vector<std::uint32_t> m_words;
+  std::vector<double> m_values;
 
   mutable std::mutex m_mutex;  // of m_state only
   std::shared_ptr<const State> m_state;

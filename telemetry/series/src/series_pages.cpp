@@ -153,7 +153,7 @@ class PagedView final : public GroupView {
     };
     return m_recent && holds(*m_recent) ? m_recent : m_pages->held(m_group, looked);
   }
-  /// The same; what is not in memory is asked for.
+  /// The same, and requests what is not in memory.
   std::optional<Stretch> read(TimeRange range) const {
     auto held = find(range);
     if (const TimeRange looked = within(range); !held && looked.begin <= looked.end) {

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <shared_mutex>
 
+#include <telemetry/series/robot_names.h>
 #include <telemetry/series/series_pages.h>
 
 #include "series_group.h"
@@ -15,18 +15,16 @@
 namespace pitchboard::telemetry {
 
 struct SeriesStore::Impl {
-  // Taken by a writer every 64 rows, and by whoever changes groups or budget: chunks come and go.
+  // Locked by writers every 64 rows, and while groups or the budget change: chunks come and go.
   std::mutex structure;
   // Of the list below, which only grows, and only under `structure`.
   mutable std::shared_mutex listMutex;
   std::vector<std::unique_ptr<series::Group>> groups;
-  std::vector<bool> replaced;  // by a group of the same name with other columns
-  std::atomic<std::uint64_t> revision{0}, refused{0};
+  std::atomic<std::uint64_t> revision{0};
   std::atomic<std::size_t> bytes{0}, budget{0};
-  std::shared_ptr<SeriesPages> pages;                     // of the list's mutex
-  std::map<std::string, GroupId, std::less<>> wasCalled;  // of the list's mutex
-
-  static constexpr std::size_t mostNames = 10'000;
+  std::function<void()> listener;
+  std::atomic<bool> isTold{false};
+  std::shared_ptr<SeriesPages> pages;  // of the list's mutex
 
   void account() {
     std::size_t sum = 0;
@@ -56,34 +54,17 @@ struct SeriesStore::Impl {
 
   series::Group* writable(GroupId id) const {
     const std::shared_lock lock(listMutex);
-    return id < groups.size() && !replaced[id] ? groups[id].get() : nullptr;
+    return id < groups.size() ? groups[id].get() : nullptr;
   }
 
   /// Under one of the locks.
-  std::optional<GroupId> find(std::string_view name) const {
+  std::optional<GroupId> find(const GroupInfo& info) const {
     for (GroupId id = 0; id < groups.size(); ++id) {
-      if (!replaced[id] && groups[id]->view()->info().name == name) return id;
+      if (isSameGroup(groups[id]->view()->info(), info)) return id;
     }
     return std::nullopt;
   }
 };
-
-namespace {
-
-/// The same columns in the same places, and perhaps further values behind them.
-bool continues(const std::vector<ColumnInfo>& before, const std::vector<ColumnInfo>& now) {
-  if (now.size() < before.size()) return false;
-  for (std::size_t i = 0; i < now.size(); ++i) {
-    const bool same = i < before.size()
-                          ? now[i].name == before[i].name && now[i].type == before[i].type &&
-                                now[i].lost == before[i].lost
-                          : now[i].type == ColumnType::Float64;
-    if (!same) return false;
-  }
-  return true;
-}
-
-}  // namespace
 
 SeriesStore::SeriesStore(SeriesOptions options) : m_impl(std::make_unique<Impl>()) {
   m_impl->budget = options.memoryBudget;
@@ -92,43 +73,35 @@ SeriesStore::SeriesStore(SeriesOptions options) : m_impl(std::make_unique<Impl>(
 SeriesStore::~SeriesStore() = default;
 
 GroupId SeriesStore::addGroup(const GroupInfo& info) {
-  return renameGroup(info.name, info);
-}
-
-GroupId SeriesStore::renameGroup(std::string_view from, const GroupInfo& info) {
   Impl& d = *m_impl;
-  auto layout = std::make_shared<const series::Layout>(info);
   const std::lock_guard structure(d.structure);
-  auto known = d.find(info.name);
-  if (!known) known = d.find(from);
+  const auto known = d.find(info);
   if (known) {
     series::Group& group = *d.groups[*known];
-    const auto view = group.view();
-    if (continues(view->info().columns, info.columns)) {
-      if (view->info() == info) return *known;
-      if (info.columns.size() == view->info().columns.size()) {
-        group.setLayout(std::move(layout));
-      } else {
-        group.widen(std::move(layout));
-        d.account();
-      }
-      if (view->info().name != info.name) {
-        const std::lock_guard list(d.listMutex);
-        if (d.wasCalled.size() < Impl::mostNames) d.wasCalled[view->info().name] = *known;
-      }
-      d.revision.fetch_add(1);
-      return *known;
-    }
-    group.clear();
+    if (!group.setInfo(info)) return *known;
+    d.account();
+    d.revision.fetch_add(1);
+    return *known;
   }
-  auto group = std::make_unique<series::Group>(std::move(layout));
+  auto group = std::make_unique<series::Group>(std::make_shared<const series::Layout>(info));
   const std::lock_guard list(d.listMutex);
-  if (known) d.replaced[*known] = true;
   d.groups.push_back(std::move(group));
-  d.replaced.push_back(false);
   d.account();
   d.revision.fetch_add(1);
   return static_cast<GroupId>(d.groups.size() - 1);
+}
+
+void SeriesStore::describeGroups(std::span<const GroupInfo> groups) {
+  Impl& d = *m_impl;
+  const std::lock_guard structure(d.structure);
+  // Readers of names wait, so that two groups that exchange names never have the same one.
+  const std::lock_guard list(d.listMutex);
+  for (const GroupInfo& info : groups) {
+    const auto known = d.find(info);
+    if (!known) continue;
+    d.groups[*known]->describe(info);
+  }
+  d.revision.fetch_add(1);
 }
 
 void SeriesStore::append(GroupId id, const RowView& row) {
@@ -146,7 +119,15 @@ void SeriesStore::append(GroupId id, const RowView& row) {
     group->closeBlock();
     d.keepBudget();
   }
-  if (done == series::Group::Put::Refused) d.refused.fetch_add(1, std::memory_order_relaxed);
+  if (done != series::Group::Put::Refused && d.listener && !d.isTold.exchange(true)) d.listener();
+}
+
+void SeriesStore::setListener(std::function<void()> listener) {
+  m_impl->listener = std::move(listener);
+}
+
+void SeriesStore::heard() const {
+  m_impl->isTold.store(false);
 }
 
 void SeriesStore::clear() {
@@ -167,8 +148,6 @@ std::shared_ptr<const SeriesStore> SeriesStore::branch() const {
   const std::lock_guard structure(m_impl->structure);
   const std::shared_lock list(m_impl->listMutex);
   for (const auto& group : m_impl->groups) copy->m_impl->groups.push_back(group->branch());
-  copy->m_impl->replaced = m_impl->replaced;
-  copy->m_impl->wasCalled = m_impl->wasCalled;
   copy->m_impl->pages = m_impl->pages;
   copy->m_impl->revision = m_impl->revision.load();
   copy->m_impl->account();
@@ -191,25 +170,40 @@ std::shared_ptr<const GroupView> SeriesStore::view(GroupId id) const {
   return m_impl->groups[id]->view();
 }
 
-std::optional<GroupId> SeriesStore::findGroup(std::string_view name) const {
+Result<std::vector<GroupId>> SeriesStore::groupsNamed(std::string_view name) const {
   const std::shared_lock lock(m_impl->listMutex);
-  return m_impl->find(name);
+  std::vector<std::shared_ptr<const GroupView>> views;
+  std::vector<const GroupInfo*> infos;
+  for (const auto& group : m_impl->groups) {
+    views.push_back(group->view());
+    infos.push_back(&views.back()->info());
+  }
+  return telemetry::groupsNamed(name, infos);
+}
+
+std::optional<GroupId> SeriesStore::findGroup(std::string_view name) const {
+  const auto found = groupsNamed(name);
+  return found ? std::optional(found->front()) : std::nullopt;
+}
+
+std::vector<std::string> SeriesStore::groupNames() const {
+  std::vector<std::string> names;
+  const std::shared_lock lock(m_impl->listMutex);
+  for (GroupId id = 0; id < m_impl->groups.size(); ++id) {
+    names.push_back(m_impl->groups[id]->view()->info().name);
+  }
+  return names;
 }
 
 std::optional<SeriesId> SeriesStore::find(std::string_view group, std::string_view column) const {
-  auto id = findGroup(group);
-  if (!id) {
-    const std::shared_lock lock(m_impl->listMutex);
-    const auto before = m_impl->wasCalled.find(group);
-    if (before == m_impl->wasCalled.end()) return std::nullopt;
-    id = before->second;
+  const auto groups = groupsNamed(group);
+  for (const GroupId id : groups.value_or(std::vector<GroupId>())) {
+    const auto found = view(id);
+    const auto& columns = found->info().columns;
+    const auto at = std::ranges::find(columns, column, &ColumnInfo::name);
+    if (at != columns.end()) return SeriesId{id, static_cast<std::uint32_t>(at - columns.begin())};
   }
-  const auto found = view(*id);
-  if (!found) return std::nullopt;
-  const auto& columns = found->info().columns;
-  const auto at = std::ranges::find(columns, column, &ColumnInfo::name);
-  if (at == columns.end()) return std::nullopt;
-  return SeriesId{*id, static_cast<std::uint32_t>(at - columns.begin())};
+  return std::nullopt;
 }
 
 std::optional<TimeRange> SeriesStore::range() const {
@@ -243,10 +237,6 @@ std::size_t SeriesStore::memoryBytes() const {
     if (m_impl->pages) return m_impl->pages->bytes();
   }
   return m_impl->bytes.load(std::memory_order_relaxed);
-}
-
-std::uint64_t SeriesStore::refusedRows() const {
-  return m_impl->refused.load(std::memory_order_relaxed);
 }
 
 void SeriesStore::setMemoryBudget(std::size_t bytes) {

@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "series_layout.h"
-
 namespace pitchboard::telemetry {
 namespace {
 
@@ -51,36 +49,30 @@ std::size_t GroupSummary::bytes() const {
   return sum;
 }
 
-SummaryBuilder::SummaryBuilder(const GroupInfo& group) {
-  for (const ColumnInfo& column : group.columns) m_types.push_back(column.type);
-  for (const series::Losable& one : series::losableColumns(group)) {
-    for (const auto& [word, lost] : one.flags) m_losable.push_back({one.column, word, lost});
-  }
-  m_now.assign(m_types.size(), {unset, unset, unset});
-  m_part.columns.resize(m_types.size());
+SummaryBuilder::SummaryBuilder(const GroupInfo& group)
+    : m_slots(slotsOf(group.columns)), m_losable(losableColumns(group)) {
+  m_now.assign(m_slots.size(), {unset, unset, unset});
+  m_part.columns.resize(m_slots.size());
 }
 
 std::optional<SummaryPart> SummaryBuilder::add(double time, const RowView& row) {
+  std::optional<SummaryPart> full;
+  if (m_rows > 0 && time - m_end > SummaryPart::maxSilence) full = closeBucket();
   if (m_rows == 0) m_begin = time;
   m_end = time;
-  const auto isLost = [&](std::size_t column) {
-    return std::ranges::any_of(m_losable, [&](const Losable& one) {
-      return one.column == column && one.flag < row.words.size() && row.words[one.flag] == one.lost;
-    });
-  };
-  std::size_t word = 0, value = 0;
-  for (std::size_t c = 0; c < m_types.size(); ++c) {
+  auto losable = m_losable.begin();  // of the column, or of one behind it
+  for (std::size_t c = 0; c < m_slots.size(); ++c) {
+    const auto [type, index] = m_slots[c];
+    const bool isLosable = losable != m_losable.end() && losable->column == c;
+    const bool isLost = isLosable && losable->isLost(row);
+    if (isLosable) ++losable;
+    const bool isWord = type != ColumnType::Float64;
     float number = unset;
-    if (m_types[c] == ColumnType::Float64) {
-      if (value < row.values.size()) number = static_cast<float>(row.values[value]);
-      ++value;
-    } else {
-      if (word < row.words.size() && !isLost(c)) {
-        number = m_types[c] == ColumnType::Int32
-                     ? static_cast<float>(std::bit_cast<std::int32_t>(row.words[word]))
-                     : std::bit_cast<float>(row.words[word]);
-      }
-      ++word;
+    if (!isLost && index < (isWord ? row.words.size() : row.values.size())) {
+      number = type == ColumnType::Float64 ? static_cast<float>(row.values[index])
+               : type == ColumnType::Int32
+                   ? static_cast<float>(std::bit_cast<std::int32_t>(row.words[index]))
+                   : std::bit_cast<float>(row.words[index]);
     }
     Extremes& now = m_now[c];
     // Written so that NaN on either side gives way.
@@ -88,19 +80,17 @@ std::optional<SummaryPart> SummaryBuilder::add(double time, const RowView& row) 
     if (!(now.max >= number)) now.max = number == number ? number : now.max;
     now.last = number;
   }
-  if (++m_rows < SummaryPart::usualRows) return std::nullopt;
-  closeBucket();
-  if (m_part.buckets() < SummaryPart::mostBuckets) return std::nullopt;
-  return take();
+  return ++m_rows < SummaryPart::defaultRows ? full : closeBucket();
 }
 
 std::optional<SummaryPart> SummaryBuilder::finish() {
-  if (m_rows > 0) closeBucket();
+  if (auto full = closeBucket()) return full;
   if (m_part.buckets() == 0) return std::nullopt;
   return take();
 }
 
-void SummaryBuilder::closeBucket() {
+std::optional<SummaryPart> SummaryBuilder::closeBucket() {
+  if (m_rows == 0) return std::nullopt;
   m_part.begin.push_back(m_begin);
   m_part.end.push_back(m_end);
   m_part.rows.push_back(m_rows);
@@ -109,8 +99,10 @@ void SummaryBuilder::closeBucket() {
     m_part.columns[c].max.push_back(m_now[c].max);
     m_part.columns[c].last.push_back(m_now[c].last);
   }
-  m_now.assign(m_types.size(), {unset, unset, unset});
+  m_now.assign(m_slots.size(), {unset, unset, unset});
   m_rows = 0;
+  if (m_part.buckets() < SummaryPart::maxBuckets) return std::nullopt;
+  return take();
 }
 
 SummaryPart SummaryBuilder::take() {
@@ -120,7 +112,7 @@ SummaryPart SummaryBuilder::take() {
     shorten(column.last);
   }
   SummaryPart done = std::exchange(m_part, {});
-  m_part.columns.resize(m_types.size());
+  m_part.columns.resize(m_slots.size());
   return done;
 }
 

@@ -101,7 +101,7 @@ double View::row(std::size_t number, std::vector<std::uint32_t>& words,
     const Staging& staging = *m_state->staging;
     std::copy_n(staging.words.get() + std::size_t{at.row} * layout.keptWords, layout.words,
                 words.begin());
-    std::copy_n(staging.values.get() + std::size_t{at.row} * layout.values, layout.values,
+    std::copy_n(staging.values.get() + std::size_t{at.row} * layout.keptValues, layout.values,
                 values.begin());
     return staging.times[at.row];
   }

@@ -113,7 +113,7 @@ T View::stagedValue(std::uint32_t column, std::uint32_t row) const {
   const Layout& layout = *m_state->layout;
   const std::uint32_t index = layout.slots[column].index;
   if constexpr (sizeof(T) == 8) {
-    return m_state->staging->values[std::size_t{row} * layout.values + index];
+    return m_state->staging->values[std::size_t{row} * layout.keptValues + index];
   } else {
     return std::bit_cast<T>(m_state->staging->words[std::size_t{row} * layout.keptWords + index]);
   }

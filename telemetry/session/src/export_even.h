@@ -20,12 +20,17 @@ using EvenLine = std::vector<double>;
 class EvenRows {
  public:
   using Write = std::function<bool(double time, const EvenLine&)>;
+  /// The lines of the session that lie in `range`: their times count from the first row of the
+  /// session, and rows from before the range are held.
   EvenRows(const SessionReader& session, const std::vector<SelectedGroup>& selected,
-           const Resampling& resampling);
+           const Resampling& resampling, TimeRange range);
 
-  /// Rows of a group in order of time. Calls `write(time, line)` for every line that is complete;
-  /// false when it says so.
+  /// The rows to add: those of the range, and those around it that count in it.
+  TimeRange needed() const { return {m_range.begin - Resampling::maxHold, 1e18}; }
+  /// Rows in order of time. Calls `write(time, line)` for every line that is complete; returns
+  /// false when it does, or when the range isDone().
   bool add(const SessionItem& item, const Write& write);
+  bool isDone() const { return m_any && next() > m_range.end; }
   /// What is left, up to the last row.
   bool end(const Write& write) { return writeUntil(m_last, write); }
 
@@ -48,6 +53,7 @@ class EvenRows {
 
   const std::vector<SelectedGroup>& m_selected;
   Resampling m_resampling;
+  TimeRange m_range;
   std::vector<Group> m_groups;
   bool m_any = false;
   double m_begin = 0.0, m_last = 0.0;

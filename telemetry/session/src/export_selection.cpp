@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 
+#include <base/nearest_name.h>
+#include <base/try.h>
+#include <base/wildcard.h>
 #include <telemetry/series/group_order.h>
 
 namespace pitchboard::telemetry {
@@ -12,27 +16,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> formats{"csv-wide", "csv-long", "jsonl", "mcap",
                                                   "csv-even"};
-
-/// `*` stands for any letters, also none. Linear in the text for every star.
-bool matches(std::string_view pattern, std::string_view text) {
-  std::size_t p = 0, t = 0, star = std::string_view::npos, mark = 0;
-  while (t < text.size()) {
-    if (p < pattern.size() && pattern[p] == '*') {
-      star = p++;
-      mark = t;
-    } else if (p < pattern.size() && pattern[p] == text[t]) {
-      ++p;
-      ++t;
-    } else if (star != std::string_view::npos) {
-      p = star + 1;
-      t = ++mark;
-    } else {
-      return false;
-    }
-  }
-  while (p < pattern.size() && pattern[p] == '*') ++p;
-  return p == pattern.size();
-}
 
 }  // namespace
 
@@ -58,44 +41,45 @@ Result<std::vector<SelectedGroup>> resolveSelection(const SessionReader& session
   if (const auto range = checkRange(selection.range); !range) return tl::unexpected(range.error());
   std::vector<SelectedGroup> out(session.groups().size());
   for (const std::string& robot : selection.robots) {
-    bool found = false;
-    std::string known;
-    for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
-      const std::string& name = session.groups()[g].info.name;
-      found = found || name == robot;
-      known += (known.empty() ? "" : ", ") + name;
-    }
-    if (!found) {
-      return failure(ErrorCode::NotFound, "The session has no robot \"" + robot + "\"; it has " +
-                                              (known.empty() ? std::string("none") : known) + ".");
-    }
+    const std::vector<GroupId> groups = TRY(session.groupsNamed(robot));
+    for (const GroupId group : groups) out[group].selected = true;
   }
   std::vector<bool> used(selection.variables.size(), false);
   for (std::size_t g = 0; g < out.size(); ++g) {
     const GroupInfo& info = session.groups()[g].info;
-    out[g].selected = selection.robots.empty() ||
-                      std::find(selection.robots.begin(), selection.robots.end(), info.name) !=
-                          selection.robots.end();
+    out[g].selected = out[g].selected || selection.robots.empty();
     std::size_t words = 0, values = 0;
     for (std::size_t c = 0; c < info.columns.size(); ++c) {
       const ColumnInfo& column = info.columns[c];
       const std::size_t index = column.type == ColumnType::Float64 ? values++ : words++;
-      bool wanted = selection.variables.empty();
+      std::optional<std::size_t> wanted;
+      if (selection.variables.empty()) wanted = 0;
       for (std::size_t v = 0; v < selection.variables.size(); ++v) {
-        if (!out[g].selected || !matches(selection.variables[v], column.name)) continue;
-        wanted = used[v] = true;
+        if (!out[g].selected || !fitsWildcard(selection.variables[v], column.name)) continue;
+        used[v] = true;
+        if (!wanted) wanted = v;
       }
       if (!wanted) continue;
       const bool isText = column.kind == ColumnKind::Text && column.type == ColumnType::Float64;
-      out[g].columns.push_back({c, column.type, index, isText ? &column.labels : nullptr});
+      out[g].columns.push_back({c, column.type, index, *wanted, isText ? &column.labels : nullptr});
     }
     out[g].selected = out[g].selected && !out[g].columns.empty();
   }
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (used[v]) continue;
-    return failure(ErrorCode::NotFound, "The selected robots have no variable \"" +
-                                            selection.variables[v] +
-                                            "\"; a * stands for any letters.");
+    std::vector<std::string_view> known;
+    for (std::size_t g = 0; g < out.size(); ++g) {
+      const GroupInfo& info = session.groups()[g].info;
+      if (!selection.robots.empty() &&
+          std::ranges::find(selection.robots, info.name) == selection.robots.end())
+        continue;
+      for (const ColumnInfo& column : info.columns) known.push_back(column.name);
+    }
+    const std::string_view near = nearestName(selection.variables[v], known);
+    return failure(ErrorCode::NotFound,
+                   "The selected robots have no variable \"" + selection.variables[v] + "\"" +
+                       (near.empty() ? "; a * stands for any letters."
+                                     : "; did you mean \"" + std::string(near) + "\"?"));
   }
   return out;
 }

@@ -14,6 +14,8 @@ struct SelectedColumn {
   std::size_t column = 0;  ///< in GroupInfo
   ColumnType type = ColumnType::Float64;
   std::size_t index = 0;  ///< in the words or the values of a row
+  std::size_t wanted =
+      0;  ///< number of the first entry of ExportSelection::variables that names it
   /// Labels of a text column; owned by the session.
   const std::map<std::int32_t, std::string>* labels = nullptr;
 
@@ -27,6 +29,7 @@ struct SelectedColumn {
 
 struct SelectedGroup {
   bool selected = false;
+  /// In the order of the group's columns.
   std::vector<SelectedColumn> columns;
 };
 

@@ -7,7 +7,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr double longestAnswer = 2.0;     // s; a healthy disk takes milliseconds
+constexpr double maxAnswer = 2.0;         // s; a healthy disk takes milliseconds
 constexpr double littleTime = 15.0 * 60;  // s; enough to make room or to go to another disk
 constexpr std::uint64_t littleSpace = 64'000'000;
 
@@ -45,7 +45,7 @@ std::optional<double> secondsLeft(const SessionStatus& status) {
 }
 
 RecordingTrouble troubleOf(const SessionStatus& status) {
-  if (status.syncLatency > longestAnswer) return RecordingTrouble::DiskBehind;
+  if (status.syncLatency > maxAnswer) return RecordingTrouble::DiskBehind;
   const auto left = secondsLeft(status);
   if ((left && *left < littleTime) ||
       (!left && status.freeBytes.value_or(littleSpace) < littleSpace))

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include <telemetry/series/column_merge.h>
 #include <telemetry/session/session_writer.h>
 
 #include "export_selection.h"
@@ -17,8 +18,11 @@ namespace {
 class Copy {
  public:
   Copy(const SessionReader& session, const ExportSelection& selection,
-       const std::vector<SelectedGroup>& selected)
-      : m_session(session), m_selection(selection), m_selected(selected) {}
+       const std::vector<SelectedGroup>& selected, bool withDigests)
+      : m_session(session),
+        m_selection(selection),
+        m_selected(selected),
+        m_withDigests(withDigests) {}
 
   Result<CopyReport> write(NewFile file, const McapWriterOptions& options,
                            const std::function<bool(double)>& progress) {
@@ -31,18 +35,25 @@ class Copy {
                                  m_session.info(), writing);
     addChannels();
     addOpening();
+    addHeldRows();
     bool stopped = false;
     m_session.walkFile(
         m_selection.range,
-        [this](const McapMessage& message) {
+        [&](const McapMessage& message) {
+          stopped = !addBeside(message.logTime);
+          if (stopped) return false;
+          addNotesBefore(message.logTime);
           add(message);
           return true;
         },
         [&](double part) {
-          stopped = progress && !progress(part);
+          stopped = stopped || (progress && !progress(part));
           return !stopped && m_writer->status().recording;
         });
-    if (stopped) return exportStopped();
+    if (stopped || !addBeside(m_session.logTime(m_session.range().value_or(TimeRange{}).end))) {
+      return exportStopped();
+    }
+    addNotesBefore(std::numeric_limits<std::uint64_t>::max());
     if (auto done = m_writer->finish(); !done) return tl::unexpected(done.error());
     m_report.bytes = m_writer->status().bytes;
     return std::move(m_report);
@@ -57,7 +68,8 @@ class Copy {
     std::optional<session::RowLayout> rows{};
     const SelectedGroup* part = nullptr;  ///< of the columns; null: as they are
     session::RowLayout partLayout{};
-    std::size_t values = 0;  ///< of a row with all columns of its group
+    RowMap all{};  ///< to all columns of the group,
+    RowMap own{};  ///< and back
   };
 
   Result<void> writeHead(McapWriter& out) {
@@ -72,6 +84,7 @@ class Copy {
         m_report.missing.push_back("At byte " + std::to_string(entry.offset) +
                                    ": the description of the session is damaged.");
       }
+      if (entry.name == session::factsName && !isWanted(*values)) continue;
       if (auto done = out.metadata(entry.name, *values); !done) return done;
     }
     for (const McapAttachmentInfo& entry : m_session.file().contents().attachments) {
@@ -84,6 +97,16 @@ class Copy {
       if (!done) return done;
     }
     return {};
+  }
+
+  /// False: these are facts about a group that is left out.
+  bool isWanted(const McapMap& facts) const {
+    const auto found = session::factsFromMetadata(facts);
+    const auto& groups = m_session.groups();
+    for (std::size_t g = 0; found && g < groups.size(); ++g) {
+      if (groups[g].info.id == found->first) return m_selected[g].selected;
+    }
+    return true;
   }
 
   /// The schema's number in the new file.
@@ -116,7 +139,7 @@ class Copy {
         continue;
       }
       to.stream = session::streamOf(channel);
-      // Whose a message of another program is, nobody knows.
+      // It is unknown to which robot a message of another program belongs.
       const bool isWanted = m_selection.messages && (to.stream || m_selection.robots.empty());
       if (isWanted) to.id = addChannel(channel, nullptr);
     }
@@ -127,6 +150,7 @@ class Copy {
     const auto own = session::groupFromJson(channel.metadata.find(session::groupKey)->second);
     if (!selected.selected || !own) return;
     to.rows = session::RowLayout(*own);
+    to.own = RowMap(group.info.columns, own->columns);
     if (selected.columns.size() == group.info.columns.size()) {
       to.id = addChannel(channel, &*own);
       return;
@@ -137,12 +161,15 @@ class Copy {
     for (const SelectedColumn& column : selected.columns) {
       part.columns.push_back(group.info.columns[column.column]);
     }
+    std::stable_partition(part.columns.begin(), part.columns.end(), [](const ColumnInfo& column) {
+      return column.type != ColumnType::Float64;
+    });
     to.part = &selected;
     to.partLayout = session::RowLayout(part);
-    to.values = session::RowLayout(group.info).values;
-    std::uint16_t& id = m_parts[group.channel];
+    to.all = RowMap(own->columns, group.info.columns);
+    std::uint16_t& id = m_parts[group.channels.front()];
     if (id == 0) {
-      McapChannel changed = m_session.file().contents().channels.at(group.channel);
+      McapChannel changed = m_session.file().contents().channels.at(group.channels.front());
       const auto schema = m_session.file().contents().schemas.find(changed.schema);
       if (schema != m_session.file().contents().schemas.end()) {
         McapSchema shorter = schema->second;
@@ -166,6 +193,76 @@ class Copy {
     }
   }
 
+  /// The range begins with the values that hold then: rows from before it, repeated there.
+  void addHeldRows() {
+    const double begin = m_selection.range.begin;
+    const std::uint64_t at = m_session.logTime(begin);
+    if (begin <= -1e18) return;
+    std::vector<SessionRow> rows;
+    m_session.rowsAt(begin, rows);
+    for (std::size_t g = 0; g < rows.size(); ++g) {
+      if (!rows[g].present) continue;
+      const Channel& to = m_channels[rows[g].channel];
+      if (to.id == 0 || m_session.logTime(rows[g].time) >= at ||
+          begin - rows[g].time > Resampling::maxHold) {
+        continue;
+      }
+      const RowView all{begin, rows[g].words, rows[g].values};
+      const RowView row =
+          to.part == nullptr ? to.own.convert(all, m_words, m_values) : partOf(all, *to.part);
+      const session::RowLayout& layout = to.part == nullptr ? *to.rows : to.partLayout;
+      m_text.resize(layout.size);
+      layout.write(m_text.data(), row);
+      put({to.id, 0, at, at, m_text}, &row);
+    }
+  }
+
+  /// The selected columns of a row that has all columns of its group.
+  RowView partOf(const RowView& row, const SelectedGroup& part) {
+    m_partWords.clear();
+    m_partValues.clear();
+    for (const SelectedColumn& column : part.columns) {
+      if (column.type == ColumnType::Float64)
+        m_partValues.push_back(row.values[column.index]);
+      else
+        m_partWords.push_back(row.words[column.index]);
+    }
+    return {row.time, m_partWords, m_partValues};
+  }
+
+  /// The bookmarks beside the file become events of the new one, behind those of the same time.
+  void addNotesBefore(std::uint64_t logTime) {
+    const auto& notes = m_session.addedNotes();
+    for (; m_selection.messages && m_nextNote < notes.size(); ++m_nextNote) {
+      const SessionEvent& event = notes[m_nextNote];
+      const std::uint64_t at = m_session.logTime(event.time);
+      if (at >= logTime) return;
+      if (event.time < m_selection.range.begin || event.time > m_selection.range.end) continue;
+      if (m_noteChannel == 0) m_noteChannel = eventChannel();
+      const std::string json = session::toJson(event);
+      put({m_noteChannel, 0, at, at, json}, nullptr);
+    }
+  }
+
+  /// What the caller adds, once for each time.
+  bool addBeside(std::uint64_t logTime) {
+    if (!m_selection.beside || m_besideTo == logTime) return true;
+    m_besideTo = logTime;
+    return m_selection.beside(*m_writer, m_session.seconds(logTime));
+  }
+
+  std::uint16_t eventChannel() {
+    const auto known = std::ranges::find_if(m_channels, [](const Channel& channel) {
+      return channel.id != 0 && channel.stream == SessionStream::Events;
+    });
+    if (known != m_channels.end()) return known->id;
+    const session::StreamInfo& info =
+        session::streams[static_cast<std::size_t>(SessionStream::Events)];
+    const std::uint16_t schema = m_writer->addSchema(
+        {0, std::string(info.schemaName), "jsonschema", std::string(info.jsonSchema)});
+    return m_writer->addChannel({0, schema, std::string(info.topic), "json", {}}, nullptr);
+  }
+
   void add(const McapMessage& message) {
     const bool isKnown = message.channel < m_channels.size() && m_channels[message.channel].isKnown;
     if (!isKnown) ++m_report.messagesWithoutChannel;
@@ -185,17 +282,7 @@ class Copy {
     row.values = m_values;
     if (channel.part == nullptr) return put(out, isRow ? &row : nullptr);
     if (!isRow) return;
-    m_values.resize(channel.values, std::numeric_limits<double>::quiet_NaN());
-    m_partWords.clear();
-    m_partValues.clear();
-    for (const SelectedColumn& column : channel.part->columns) {
-      if (column.type == ColumnType::Float64)
-        m_partValues.push_back(m_values[column.index]);
-      else
-        m_partWords.push_back(m_words[column.index]);
-    }
-    row.words = m_partWords;
-    row.values = m_partValues;
+    row = partOf(channel.all.convert(row, m_allWords, m_allValues), *channel.part);
     m_text.resize(channel.partLayout.size);
     channel.partLayout.write(m_text.data(), row);
     out.data = m_text;
@@ -203,19 +290,27 @@ class Copy {
   }
 
   void put(const McapMessage& message, const RowView* row) {
-    m_report.channels[message.channel].add(message);
+    ChannelDigest& digest = m_report.channels[message.channel];
+    if (m_withDigests)
+      digest.add(message);
+    else
+      ++digest.messages;
     m_writer->append(message, row);
   }
 
   const SessionReader& m_session;
   const ExportSelection& m_selection;
   const std::vector<SelectedGroup>& m_selected;
+  const bool m_withDigests;
   std::unique_ptr<SessionWriter> m_writer;
   std::map<std::uint16_t, std::uint16_t> m_schemas;  // of the session → of the new file
   std::map<std::uint16_t, std::uint16_t> m_parts;    // the same of channels with fewer columns
   std::vector<Channel> m_channels;
-  std::vector<std::uint32_t> m_words, m_partWords;
-  std::vector<double> m_values, m_partValues;
+  std::size_t m_nextNote = 0;
+  std::uint16_t m_noteChannel = 0;
+  std::optional<std::uint64_t> m_besideTo;
+  std::vector<std::uint32_t> m_words, m_allWords, m_partWords;
+  std::vector<double> m_values, m_allValues, m_partValues;
   std::string m_text;
   CopyReport m_report;
 };
@@ -239,10 +334,10 @@ tl::unexpected<Error> exportStopped() {
 
 Result<CopyReport> copySession(const SessionReader& session, const ExportSelection& selection,
                                NewFile file, const McapWriterOptions& options,
-                               const std::function<bool(double)>& progress) {
+                               const std::function<bool(double)>& progress, bool withDigests) {
   const auto selected = resolveSelection(session, selection);
   if (!selected) return tl::unexpected(selected.error());
-  return Copy(session, selection, *selected).write(std::move(file), options, progress);
+  return Copy(session, selection, *selected, withDigests).write(std::move(file), options, progress);
 }
 
 }  // namespace pitchboard::telemetry

@@ -27,10 +27,11 @@ struct CopyReport {
   std::vector<std::string> missing;  ///< what is no message and cannot be read, in sentences
 };
 
-/// Into a file that was begun, which it finishes. Progress and errors as exportFile().
+/// Into a file that was begun, which it finishes. Progress and errors as exportFile(). Without
+/// `withDigests` messages are only counted, which takes a fifth less time.
 Result<CopyReport> copySession(const SessionReader& session, const ExportSelection& selection,
                                NewFile file, const McapWriterOptions& options,
-                               const std::function<bool(double)>& progress);
+                               const std::function<bool(double)>& progress, bool withDigests);
 
 tl::unexpected<Error> exportStopped();
 

@@ -2,22 +2,122 @@
 #include <telemetry/session/session_export.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include <base/byte_sizes.h>
 #include <base/csv_field.h>
 #include <base/new_file.h>
 #include <telemetry/series/group_order.h>
 
 #include "export_even.h"
-#include "export_text.h"
+#include "export_selection.h"
 #include "session_copy.h"
 #include "session_format.h"
 
 namespace pitchboard::telemetry {
+
+/// Text of one value, and the bits that it stands for.
+struct Cell {
+  static constexpr std::size_t room = 32;  ///< no double needs more than 24
+  std::array<char, room> text{};
+  std::uint32_t length = 0;
+  bool filled = false;
+  std::uint64_t bits = 0;
+
+  void set(ColumnType type, std::uint64_t newBits) {
+    if (filled && bits == newBits) return;
+    filled = true;
+    bits = newBits;
+    char* const end = text.data() + room;
+    std::to_chars_result done{};
+    switch (type) {
+      case ColumnType::Int32:
+        done = std::to_chars(text.data(), end,
+                             std::bit_cast<std::int32_t>(static_cast<std::uint32_t>(newBits)));
+        break;
+      case ColumnType::Float32:
+        done = std::to_chars(text.data(), end,
+                             std::bit_cast<float>(static_cast<std::uint32_t>(newBits)));
+        break;
+      case ColumnType::Float64:
+        done = std::to_chars(text.data(), end, std::bit_cast<double>(newBits));
+        break;
+    }
+    length = static_cast<std::uint32_t>(done.ptr - text.data());
+  }
+  /// NaN if the value is unknown.
+  bool isUnknown() const { return length >= 3 && text[length - 1] == 'n'; }
+  /// Not unknown nor infinite: JSON cannot express them.
+  bool isNumber() const {
+    const char last = length > 0 ? text[length - 1] : 'n';
+    return last >= '0' && last <= '9';
+  }
+};
+
+std::uint64_t bitsOf(const SelectedColumn& column, const RowView& row) {
+  return column.type == ColumnType::Float64 ? std::bit_cast<std::uint64_t>(row.values[column.index])
+                                            : row.words[column.index];
+}
+
+/// A buffer that grows by pieces of known greatest length and is handed on when it is large.
+class TextBuffer {
+ public:
+  explicit TextBuffer(const std::function<bool(std::string_view)>& sink) : m_sink(sink) {
+    m_text.resize(flushAt + 4096);
+  }
+  /// Room for `bytes` more.
+  void reserve(std::size_t bytes) {
+    if (m_used + bytes > m_text.size()) m_text.resize((m_used + bytes) * 2);
+  }
+  /// After reserve(Cell::room): copies a fixed count of bytes, which is one instruction or two.
+  void put(const Cell& cell) {
+    std::memcpy(m_text.data() + m_used, cell.text.data(), Cell::room);
+    m_used += cell.length;
+  }
+  void put(char c) { m_text[m_used++] = c; }
+  void put(std::string_view text) {
+    std::memcpy(m_text.data() + m_used, text.data(), text.size());
+    m_used += text.size();
+  }
+  void putSafely(std::string_view text) {
+    reserve(text.size());
+    put(text);
+  }
+  bool endLine() {
+    reserve(1);
+    put('\n');
+    ++m_lines;
+    return m_used < flushAt || flush();
+  }
+  bool flush() {
+    m_bytes += m_used;
+    const bool taken = m_used == 0 || m_sink(std::string_view(m_text).substr(0, m_used));
+    m_used = 0;
+    m_failed = m_failed || !taken;
+    return taken;
+  }
+  bool failed() const { return m_failed; }
+  std::uint64_t bytes() const { return m_bytes; }
+  std::uint64_t lines() const { return m_lines; }
+
+ private:
+  static constexpr std::size_t flushAt = 256 * kibibyte;
+  const std::function<bool(std::string_view)>& m_sink;
+  std::string m_text;
+  std::size_t m_used = 0;
+  std::uint64_t m_bytes = 0, m_lines = 0;
+  bool m_failed = false;
+};
+
 namespace {
 
 using Selected = std::vector<SelectedGroup>;
@@ -47,11 +147,7 @@ class LineWriter {
  public:
   LineWriter(const SessionReader& session, const ExportSelection& selection,
              const Selected& selected, TextBuffer& out)
-      : m_session(session),
-        m_selection(selection),
-        m_selected(selected),
-        m_listed(listedOrder(session.groups(), &SessionGroup::info)),
-        m_out(out) {}
+      : m_session(session), m_selection(selection), m_selected(selected), m_out(out) {}
   virtual ~LineWriter() = default;
   virtual bool begin() { return true; }
   virtual bool row(const SessionItem& item) = 0;
@@ -71,18 +167,6 @@ class LineWriter {
     m_out.put(',');
     m_out.put(clockText(m_session.info().start, time));
   }
-  /// The variables' names, one for each column; how many.
-  std::size_t putNames() {
-    std::size_t columns = 0;
-    for (const std::size_t g : m_listed) {
-      if (!m_selected[g].selected) continue;
-      for (const SelectedColumn& column : m_selected[g].columns) {
-        m_out.putSafely("," + csvField(info(g).name + "." + info(g).columns[column.column].name));
-      }
-      columns += m_selected[g].columns.size();
-    }
-    return columns;
-  }
   /// A value; `room` is what the line needs behind it. False: it has no label, nothing was put.
   bool putLabel(const SelectedColumn& column, double value, std::size_t room, bool json) {
     const std::string* word = column.labelOf(value);
@@ -91,11 +175,14 @@ class LineWriter {
     m_out.reserve(room);
     return true;
   }
+  /// A number of CSV; a cell is empty where the value is unknown.
+  void putValue(const Cell& cell) {
+    if (!cell.isUnknown()) m_out.put(cell);
+  }
   static constexpr std::size_t clockRoom = 40;
   const SessionReader& m_session;
   const ExportSelection& m_selection;
   const Selected& m_selected;
-  const std::vector<std::size_t> m_listed;  // groups, in the order of columns
   TextBuffer& m_out;
   Cell m_time;
 };
@@ -106,29 +193,46 @@ class WideWriter : public LineWriter {
 
   bool begin() override {
     m_parts.resize(m_selected.size());
-    for (std::size_t g = 0; g < m_selected.size(); ++g) {
-      if (m_selected[g].selected) m_parts[g].cells.resize(m_selected[g].columns.size());
+    for (const std::size_t g : listedOrder(m_session.groups(), &SessionGroup::info)) {
+      if (!m_selected[g].selected) continue;
+      m_parts[g].cells.resize(m_selected[g].columns.size());
+      for (std::size_t i = 0; i < m_parts[g].cells.size(); ++i) {
+        m_places.push_back({g, &m_selected[g].columns[i], &m_parts[g], &m_parts[g].cells[i]});
+      }
     }
+    // Robots stand side by side, but first of all the order is that of the selection.
+    std::ranges::stable_sort(m_places, {}, [](const Place& place) { return place.column->wanted; });
     m_out.putSafely(timeHead());
-    m_longestLine = putNames() * (Cell::room + 1);
+    for (const Place& place : m_places) {
+      const ColumnInfo& column = info(place.group).columns[place.column->column];
+      m_out.putSafely("," + csvField(info(place.group).name + "." + column.name));
+    }
+    m_maxLineLength = m_places.size() * (Cell::room + 1);
     return m_out.endLine();
   }
 
   bool row(const SessionItem& item) override {
-    Part& part = m_parts[item.group];
     const auto bits = std::bit_cast<std::uint64_t>(item.time);
-    if (m_open && (bits != m_bits || part.filled) && !line()) return false;
+    if (m_open && bits != m_bits && !lines()) return false;
     m_open = true;
     m_bits = bits;
-    part.filled = true;
     const auto& columns = m_selected[item.group].columns;
+    Part& part = m_parts[item.group];
+    if (part.filled) {
+      // A second row of this time: the n-th rows of all robots share a line.
+      Later later{item.group, {}};
+      for (const SelectedColumn& column : columns) later.bits.push_back(bitsOf(column, item.row));
+      m_later.push_back(std::move(later));
+      return true;
+    }
+    part.filled = true;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       part.cells[i].set(columns[i].type, bitsOf(columns[i], item.row));
     }
     return true;
   }
 
-  bool end() override { return !m_open || line(); }
+  bool end() override { return !m_open || lines(); }
 
  protected:
   struct Part {
@@ -137,31 +241,65 @@ class WideWriter : public LineWriter {
   };
 
   bool line() {
-    m_open = false;
-    putTime(std::bit_cast<double>(m_bits), m_longestLine);
-    for (const std::size_t g : m_listed) {
-      Part& part = m_parts[g];
-      for (std::size_t i = 0; i < part.cells.size(); ++i) {
-        m_out.put(',');
-        if (part.filled) put(m_selected[g].columns[i], part.cells[i]);
-      }
-      part.filled = false;
+    putTime(std::bit_cast<double>(m_bits), m_maxLineLength);
+    for (const Place& place : m_places) {
+      m_out.put(',');
+      if (place.part->filled) put(*place.column, *place.cell);
     }
+    for (Part& part : m_parts) part.filled = false;
     return m_out.endLine();
+  }
+
+  std::vector<Part> m_parts;
+  std::uint64_t m_bits = 0;  // of the line's time
+
+ private:
+  struct Place {
+    std::size_t group;
+    const SelectedColumn* column;
+    const Part* part;
+    const Cell* cell;
+  };
+  struct Later {
+    GroupId group;
+    std::vector<std::uint64_t> bits;
+  };
+
+  /// All lines of one time.
+  bool lines() {
+    m_open = false;
+    if (!line()) return false;
+    while (!m_later.empty()) {
+      std::vector<Later> rest;
+      for (Later& later : m_later) {
+        Part& part = m_parts[later.group];
+        if (part.filled) {
+          rest.push_back(std::move(later));
+          continue;
+        }
+        part.filled = true;
+        const auto& columns = m_selected[later.group].columns;
+        for (std::size_t i = 0; i < columns.size(); ++i) {
+          part.cells[i].set(columns[i].type, later.bits[i]);
+        }
+      }
+      m_later = std::move(rest);
+      if (!line()) return false;
+    }
+    return true;
   }
 
   void put(const SelectedColumn& column, const Cell& cell) {
     if (column.labels == nullptr) {
-      if (!m_holesAreEmpty || cell.isNumber()) m_out.put(cell);
+      putValue(cell);
     } else {
-      putLabel(column, std::bit_cast<double>(cell.bits), m_longestLine, false);
+      putLabel(column, std::bit_cast<double>(cell.bits), m_maxLineLength, false);
     }
   }
 
-  std::vector<Part> m_parts;
-  std::size_t m_longestLine = 0;
-  bool m_holesAreEmpty = false;
-  std::uint64_t m_bits = 0;
+  std::vector<Place> m_places;  // in the order of columns
+  std::vector<Later> m_later;   // rows of the open time that need lines of their own
+  std::size_t m_maxLineLength = 0;
   bool m_open = false;
 };
 
@@ -206,7 +344,7 @@ class LongWriter : public NamedWriter {
       putTime(item.time, Cell::room + prefix.size());
       m_out.put(prefix);
       if (columns[i].labels == nullptr) {
-        m_out.put(cell);
+        putValue(cell);
       } else {
         putLabel(columns[i], std::bit_cast<double>(cell.bits), 1, false);
       }
@@ -222,12 +360,11 @@ class EvenWriter : public WideWriter {
   EvenWriter(const SessionReader& session, const ExportSelection& selection,
              const Selected& selected, TextBuffer& out)
       : WideWriter(session, selection, selected, out),
-        m_rows(session, selected, selection.resampling) {
-    m_holesAreEmpty = true;
-  }
+        m_rows(session, selected, selection.resampling, selection.range) {}
 
   bool row(const SessionItem& item) override { return m_rows.add(item, m_write); }
   bool end() override { return m_rows.end(m_write); }
+  const EvenRows& rows() const { return m_rows; }
 
  private:
   bool put(double time, const EvenLine& values) {
@@ -313,10 +450,14 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
                                 const ExportSelection& selection,
                                 const std::function<bool(std::string_view)>& sink,
                                 const ExportProgress& progress) {
-  const auto selected = resolveSelection(session, selection);
+  auto selected = resolveSelection(session, selection);
   if (!selected) return tl::unexpected(selected.error());
+  for (SelectedGroup& group : *selected) {
+    std::ranges::stable_sort(group.columns, {}, &SelectedColumn::wanted);
+  }
   TextBuffer out(sink);
   std::unique_ptr<LineWriter> writer;
+  const EvenRows* even = nullptr;
   switch (format) {
     case ExportFormat::CsvWide:
       writer = std::make_unique<WideWriter>(session, selection, *selected, out);
@@ -329,11 +470,14 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
       break;
     case ExportFormat::CsvEven:
       if (!(selection.resampling.rate > 0.0) ||
-          selection.resampling.rate > Resampling::mostPerSecond) {
+          selection.resampling.rate > Resampling::maxPerSecond) {
         return failure(ErrorCode::InvalidArgument,
                        "The rate must be above 0 and at most 10000 lines a second.");
       }
-      writer = std::make_unique<EvenWriter>(session, selection, *selected, out);
+      if (auto made = std::make_unique<EvenWriter>(session, selection, *selected, out)) {
+        even = &made->rows();
+        writer = std::move(made);
+      }
       break;
     case ExportFormat::Mcap:
       return failure(ErrorCode::InvalidArgument,
@@ -341,7 +485,20 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
   }
   bool going = writer->begin();
   bool interrupted = false;
+  std::vector<SessionEvent> events;  // with bookmarks as their notes were written last
+  if (format == ExportFormat::JsonLines && selection.messages) events = session.events();
+  const auto isOldNote = [&events](const SessionItem& item) {
+    if (item.stream != SessionStream::Events) return false;
+    const auto event = session::eventFromJson(item.message->data);
+    return event && event->kind == session::bookmarkKind &&
+           std::ranges::none_of(events, [&](const SessionEvent& known) {
+             constexpr double sameTime = 1e-6;  // s; files keep whole nanoseconds
+             return known.kind == event->kind && known.text == event->text &&
+                    std::abs(known.time - item.time) < sameTime;
+           });
+  };
   const auto visit = [&](const SessionItem& item) {
+    if (!item.isRow && isOldNote(item)) return true;
     if (!item.isRow && selection.change) {
       std::string json(item.message->data);
       if (!selection.change(item.stream, json)) return true;
@@ -359,11 +516,33 @@ Result<ExportReport> exportText(const SessionReader& session, ExportFormat forma
     return !interrupted;
   };
   if (format == ExportFormat::JsonLines && selection.messages) {
-    going = going && session.walk(selection.range, visit, report);
+    // The bookmarks beside the file stand among its messages.
+    auto note = session.addedNotes().begin();
+    const auto notesBefore = [&](double time) {
+      for (; note != session.addedNotes().end() && note->time < time; ++note) {
+        if (note->time < selection.range.begin || note->time > selection.range.end) continue;
+        const std::string json = session::toJson(*note);
+        const std::uint64_t at = session.logTime(note->time);
+        const McapMessage message{0, 0, at, at, json};
+        SessionItem item;
+        item.time = note->time;
+        item.message = &message;
+        if (!visit(item)) return false;
+      }
+      return true;
+    };
+    going = going &&
+            session.walk(
+                selection.range,
+                [&](const SessionItem& item) { return notesBefore(item.time) && visit(item); },
+                report) &&
+            notesBefore(1e18);
   } else {
-    going = going && session.walkRows(selection.range, visit, report);
+    going = going &&
+            session.walkRows(even != nullptr ? even->needed() : selection.range, visit, report);
   }
   if (interrupted) return exportStopped();
+  going = going || (even != nullptr && even->isDone() && !out.failed());
   going = going && writer->end() && out.flush();
   if (!going) {
     return failure(ErrorCode::SystemError, "The export cannot be written.");
@@ -382,8 +561,9 @@ Result<ExportReport> exportFile(const SessionReader& session, ExportFormat forma
   if (!file) return tl::unexpected(file.error());
   Result<ExportReport> report;
   if (format == ExportFormat::Mcap) {
-    const auto copied = copySession(session, selection, std::move(*file),
-                                    {"", session.file().contents().library, 3, false}, progress);
+    const auto copied =
+        copySession(session, selection, std::move(*file),
+                    {"", session.file().contents().library, 3, false}, progress, false);
     if (!copied) return tl::unexpected(copied.error());
     report->bytes = copied->bytes;
     for (const auto& [id, digest] : copied->channels) report->lines += digest.messages;

@@ -6,9 +6,11 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <base/result.h>
@@ -20,7 +22,8 @@ namespace pitchboard::telemetry::session {
 inline constexpr std::string_view metadataName = "pitchboard";
 inline constexpr std::string_view checkKey = "check";             ///< CRC-32 of the other metadata
 inline constexpr std::string_view groupKey = "pitchboard.group";  ///< of a row channel's metadata
-inline constexpr const char* wasAttribute = "was";  ///< of a renamed group: its name before
+/// Metadata that say what a group is called from there on.
+inline constexpr std::string_view factsName = "pitchboard.group";
 
 struct StreamInfo {
   std::string_view topic, schemaName, jsonSchema;
@@ -28,7 +31,10 @@ struct StreamInfo {
 /// By SessionStream.
 extern const std::array<StreamInfo, sessionStreamCount> streams;
 
-/// The stream that a channel holds; nothing for rows and for channels that nobody here knows.
+/// SessionEvent::kind of what a person marked.
+inline constexpr std::string_view bookmarkKind = "bookmark";
+
+/// Returns the stream of a channel; empty for rows and for unknown channels.
 std::optional<SessionStream> streamOf(const McapChannel& channel);
 
 McapMap toMetadata(const SessionInfo& info);
@@ -36,6 +42,17 @@ std::string checkOf(const McapMap& metadata);
 /// The version of the format is left in `format`; fields that are missing keep their defaults.
 /// Nothing when the check fails.
 std::optional<SessionInfo> infoFromMetadata(const McapMap& metadata, int& format);
+
+/// What may change of a group that has an id.
+struct GroupFacts {
+  std::string name;
+  std::optional<RobotFacts> robot;
+  std::optional<MatchFacts> match;
+  bool operator==(const GroupFacts&) const = default;
+};
+McapMap toMetadata(const std::string& id, const GroupFacts& facts);
+/// The id and the facts. Nothing when the check fails.
+std::optional<std::pair<std::string, GroupFacts>> factsFromMetadata(const McapMap& metadata);
 
 std::string groupToJson(const GroupInfo& group);
 /// Nothing when it is not of its form or its 32-bit columns do not stand first.

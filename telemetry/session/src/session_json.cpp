@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <telemetry/series/group_attributes.h>
 #include <telemetry/wire/base64.h>
 #include <telemetry/wire/lenient_json.h>
 #include <telemetry/wire/meanings.h>
@@ -84,22 +85,23 @@ std::optional<Json> objectWithTime(std::string_view text) {
 
 }  // namespace
 
-const std::array<StreamInfo, sessionStreamCount> streams{{
-    {"/events", "pitchboard.Event",
-     R"({"type":"object","title":"pitchboard.Event","properties":{"time":{"type":"number","description":"seconds of the source"},"kind":{"type":"string"},"group":{"type":"string","description":"name of the robot"},"text":{"type":"string","description":"for people"},"robot":{"type":"integer"},"side":{"type":"string","description":"left, right"},"team":{"type":"integer"},"colour":{"type":"string"},"value":{"type":"integer"},"score":{"type":"array","items":{"type":"integer"}},"process":{"type":"string"},"detail":{"type":"string"}},"required":["time","kind"]})"},
-    // The fields of foxglove.Log, so that Foxglove's and Lichtblick's log panels show it.
-    {"/log", "foxglove.Log",
-     R"({"type":"object","title":"foxglove.Log","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"level":{"type":"integer","description":"1 debug, 2 info, 3 warning, 4 error"},"message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer"},"time":{"type":"number","description":"seconds of the source"}},"required":["time","message"]})"},
-    {"/telemetry", "pitchboard.Datagram",
-     R"({"type":"object","title":"pitchboard.Datagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer","description":"port at which it was received"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64","description":"the bytes, where they are not UTF-8 text"}},"required":["time","sender","port"]})"},
-    {"/referee/raw", "pitchboard.RefereeDatagram", R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
-    {"/referee", "pitchboard.Referee",
-     R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
-    {"/checkpoints", "pitchboard.Checkpoint",
-     R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/file-formats.md"}},"required":["time"]})"},
-    {"/live/state", "pitchboard.LiveState",
-     R"({"type":"object","title":"pitchboard.LiveState","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
-}};
+const std::array<StreamInfo, sessionStreamCount> streams{
+    {
+        {"/events", "pitchboard.Event",
+         R"({"type":"object","title":"pitchboard.Event","properties":{"time":{"type":"number","description":"seconds of the source"},"kind":{"type":"string"},"group":{"type":"string","description":"name of the robot"},"text":{"type":"string","description":"for people"},"uid":{"type":"integer","description":"identifies the robot in this session"},"side":{"type":"string","description":"left, right"},"team":{"type":"integer"},"colour":{"type":"string"},"team_name":{"type":"string"},"value":{"type":"integer"},"score":{"type":"array","items":{"type":"integer"}},"process":{"type":"string"},"detail":{"type":"string"}},"required":["time","kind"]})"},
+        // The fields of foxglove.Log, so that Foxglove's and Lichtblick's log panels show it.
+        {"/log", "foxglove.Log",
+         R"({"type":"object","title":"foxglove.Log","properties":{"timestamp":{"type":"object","title":"time","properties":{"sec":{"type":"integer"},"nsec":{"type":"integer"}}},"level":{"type":"integer","description":"1 debug, 2 info, 3 warning, 4 error"},"message":{"type":"string"},"name":{"type":"string"},"file":{"type":"string"},"line":{"type":"integer"},"time":{"type":"number","description":"seconds of the source"}},"required":["time","message"]})"},
+        {"/telemetry", "pitchboard.Datagram",
+         R"({"type":"object","title":"pitchboard.Datagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer","description":"port at which it was received"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64","description":"the bytes, where they are not UTF-8 text"}},"required":["time","sender","port"]})"},
+        {"/referee/raw", "pitchboard.RefereeDatagram", R"({"type":"object","title":"pitchboard.RefereeDatagram","properties":{"time":{"type":"number","description":"seconds of the source"},"sender":{"type":"string","description":"address:port"},"port":{"type":"integer"},"text":{"type":"string"},"base64":{"type":"string","contentEncoding":"base64"}},"required":["time","sender","port"]})"},
+        {"/referee", "pitchboard.Referee",
+         R"({"type":"object","title":"pitchboard.Referee","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
+        {"/checkpoints", "pitchboard.Checkpoint",
+         R"({"type":"object","title":"pitchboard.Checkpoint","properties":{"time":{"type":"number","description":"seconds of the source"},"tick":{"type":"integer","description":"of the state that it begins with"},"last_tick":{"type":"integer"},"segment":{"type":"string","contentEncoding":"base64","description":"exact state and the commands of the ticks that follow, see docs/file-formats.md"}},"required":["time"]})"},
+        {"/live/state", "pitchboard.LiveState",
+         R"({"type":"object","title":"pitchboard.LiveState","properties":{"time":{"type":"number","description":"seconds of the source"}},"required":["time"]})"},
+    }};
 
 std::optional<SessionStream> streamOf(const McapChannel& channel) {
   const auto found =
@@ -180,7 +182,41 @@ std::string groupToJson(const GroupInfo& group) {
     for (const auto& [code, label] : column.labels) json["labels"][std::to_string(code)] = label;
     columns.push_back(std::move(json));
   }
-  return dump(Json{{"name", group.name}, {"attributes", group.attributes}, {"columns", columns}});
+  Json json{{"name", group.name}, {"attributes", attributesOf(group)}};
+  if (!group.id.empty()) json["id"] = group.id;
+  json["columns"] = std::move(columns);
+  return dump(json);
+}
+
+McapMap toMetadata(const std::string& id, const GroupFacts& facts) {
+  constexpr std::string_view attribute = "attribute.";
+  McapMap out{{"id", id}, {"name", facts.name}};
+  GroupInfo group;
+  group.robot = facts.robot;
+  group.match = facts.match;
+  for (const auto& [key, value] : attributesOf(group)) {
+    out.insert_or_assign(std::string(attribute) + key, value);
+  }
+  out.insert_or_assign(std::string(checkKey), checkOf(out));
+  return out;
+}
+
+std::optional<std::pair<std::string, GroupFacts>> factsFromMetadata(const McapMap& metadata) {
+  constexpr std::string_view attribute = "attribute.";
+  const auto check = metadata.find(checkKey);
+  const auto id = metadata.find("id"), name = metadata.find("name");
+  if (check == metadata.end() || id == metadata.end() || name == metadata.end() ||
+      name->second.empty() || check->second != checkOf(metadata)) {
+    return std::nullopt;
+  }
+  GroupAttributes attributes;
+  for (const auto& [key, value] : metadata) {
+    if (key.starts_with(attribute)) attributes[key.substr(attribute.size())] = value;
+  }
+  GroupInfo group;
+  readAttributes(attributes, group);
+  return std::pair(id->second,
+                   GroupFacts{name->second, std::move(group.robot), std::move(group.match)});
 }
 
 std::optional<GroupInfo> groupFromJson(std::string_view text_) {
@@ -189,15 +225,17 @@ std::optional<GroupInfo> groupFromJson(std::string_view text_) {
   GroupInfo group;
   group.name = text(json, "name");
   if (group.name.empty()) return std::nullopt;
+  group.id = text(json, "id");
   if (const auto found = json.find("attributes"); found != json.end() && found->is_object()) {
+    GroupAttributes attributes;
     for (const auto& [key, value] : found->items()) {
-      if (value.is_string()) group.attributes[key] = value.get<std::string>();
+      if (value.is_string()) attributes[key] = value.get<std::string>();
     }
+    readAttributes(attributes, group);
   }
   // Version 0.8 called the columns of the published profile otherwise, and others' never so.
-  const auto profile = group.attributes.find("profile");
-  const bool isOldLive = group.attributes.contains("live") &&
-                         (profile == group.attributes.end() || profile->second == "published");
+  const std::string& profile = factsOf(group).profile;
+  const bool isOldLive = factsOf(group).live && (profile.empty() || profile == "published");
   const auto columns = json.find("columns");
   if (columns == json.end() || !columns->is_array()) return std::nullopt;
   for (const Json& entry : *columns) {
@@ -249,14 +287,11 @@ std::string toJson(const SessionEvent& event) {
       {"time", event.time}, {"kind", event.kind}, {"group", event.group}, {"text", event.text}};
   if (!event.facts) return dump(json);
   const EventFacts& facts = *event.facts;
-  if (facts.robot != 0) {
-    json["robot"] = facts.robot;
-    json["robot_team"] = facts.robotTeam.value_or(0);
-  }
-  if (facts.sender != 0) json["sender"] = facts.sender;
+  if (facts.robot != RobotUid{}) json["uid"] = facts.robot.value;
   if (!facts.side.empty()) json["side"] = facts.side;
   if (facts.team != 0) json["team"] = facts.team;
   if (!facts.colour.empty()) json["colour"] = facts.colour;
+  if (!facts.teamName.empty()) json["team_name"] = facts.teamName;
   if (facts.value) json["value"] = *facts.value;
   if (facts.score) json["score"] = {facts.score->first, facts.score->second};
   if (!facts.process.empty()) json["process"] = facts.process;
@@ -294,12 +329,11 @@ std::optional<SessionEvent> eventFromJson(std::string_view json) {
                      text(*object, "text")};
   if (!object->contains(typedEventKey)) return event;
   EventFacts& facts = event.facts.emplace();
-  facts.robot = wholeNumber(*object, "robot").value_or(0);
-  facts.robotTeam = wholeNumber(*object, "robot_team");
-  facts.sender = wholeNumber(*object, "sender").value_or(0);
+  facts.robot.value = lenient::whole<std::uint32_t>(*object, "uid");
   facts.side = text(*object, "side");
   facts.team = wholeNumber(*object, "team").value_or(0);
   facts.colour = text(*object, "colour");
+  facts.teamName = text(*object, "team_name");
   facts.value = wholeNumber(*object, "value");
   if (const auto score = object->find("score");
       score != object->end() && score->is_array() && score->size() == 2) {

@@ -3,6 +3,8 @@
 #include <limits>
 
 #include <telemetry/mcap/mcap_cursor.h>
+#include <telemetry/series/robot_names.h>
+#include <telemetry/session/session_notes.h>
 
 #include "session_loss.h"
 #include "session_reader_impl.h"
@@ -22,7 +24,21 @@ SessionReader::~SessionReader() = default;
 
 Result<SessionReader> SessionReader::open(const std::string& path,
                                           const McapReaderOptions& options) {
-  return of(McapReader::open(path, options));
+  auto session = of(McapReader::open(path, options));
+  if (session) session->m_impl->takeNotes(path);
+  return session;
+}
+
+void SessionReader::Impl::takeNotes(const std::string& path) {
+  const auto added = readSessionNotes(path);
+  if (!added) return note("The bookmarks are not shown: " + added.error().text());
+  for (const auto& [time, text] : *added) {
+    SessionEvent& event = addedNotes.emplace_back();
+    event.time = time;
+    event.kind = session::bookmarkKind;
+    event.text = text;
+    event.facts.emplace().detail = text;
+  }
 }
 
 Result<SessionReader> SessionReader::openBytes(std::string bytes,
@@ -35,11 +51,14 @@ Result<SessionReader> SessionReader::of(Result<McapReader> file) {
   auto impl = std::make_unique<Impl>(std::move(*file));
   impl->takeMetadata();
   impl->takeChannels();
+  impl->takeFacts();
   impl->takeSummaries();
   impl->takeChunks();
   impl->findStart();
   impl->noteLosses();
-  return SessionReader(std::move(impl));
+  SessionReader session(std::move(impl));
+  session.m_impl->noteOthers(session.isForeign());
+  return session;
 }
 
 void SessionReader::Impl::takeMetadata() {
@@ -69,11 +88,6 @@ void SessionReader::Impl::takeMetadata() {
 /// first message.
 void SessionReader::Impl::findStart() {
   if (described) return;
-  if (groups.empty()) {
-    note("This file was not recorded by Pitchboard (it says \"" +
-         file.contents().library.substr(0, 60) +
-         "\"); only channels in Pitchboard's format are shown.");
-  }
   const auto fits = [](std::uint64_t time) {
     return static_cast<std::int64_t>(
         std::min<std::uint64_t>(time, std::numeric_limits<std::int64_t>::max()));
@@ -100,48 +114,51 @@ void SessionReader::Impl::noteLosses() {
 }
 
 bool SessionReader::Impl::readRow(Use use, std::string_view data, SessionRow& row) const {
-  if (!layouts[use.layout].read(data, row.time, row.words, row.values)) return false;
-  const std::size_t all = layouts[widest[static_cast<std::size_t>(use.group)]].values;
-  row.values.resize(all, std::numeric_limits<double>::quiet_NaN());
+  const RowMap& map = maps[use.layout];
+  if (map.isIdentity()) return layouts[use.layout].read(data, row.time, row.words, row.values);
+  if (!layouts[use.layout].read(data, row.time, ownWords, ownValues)) return false;
+  (void)map.convert({row.time, ownWords, ownValues}, row.words, row.values);
   return true;
+}
+
+/// Versions before 0.24 wrote no former names.
+static void keepNames(const GroupInfo& before, GroupInfo& now) {
+  if (factsOf(now).formerNames.empty()) keepFormerNames(before, now);
 }
 
 void SessionReader::Impl::addGroup(GroupInfo group, std::uint64_t rows, std::uint16_t channel) {
   Use& use = useOfChannel[channel];
   use.layout = layouts.size();
   layouts.emplace_back(group);
-  const auto begins = [](const std::vector<ColumnInfo>& with, const std::vector<ColumnInfo>& all) {
-    return with.size() <= all.size() &&
-           std::equal(with.begin(), with.end(), all.begin(),
-                      [](const ColumnInfo& a, const ColumnInfo& b) {
-                        return a.name == b.name && a.type == b.type;
-                      }) &&
-           std::all_of(all.begin() + static_cast<std::ptrdiff_t>(with.size()), all.end(),
-                       [](const ColumnInfo& c) { return c.type == ColumnType::Float64; });
-  };
   for (std::size_t g = 0; g < groups.size(); ++g) {
     SessionGroup& known = groups[g];
-    const auto was = group.attributes.find(session::wasAttribute);
-    const bool isRenamed = was != group.attributes.end() && was->second == known.info.name;
-    if (known.info.name != group.name && !isRenamed) continue;
-    const bool wider = begins(known.info.columns, group.columns);
-    if (!wider && !begins(group.columns, known.info.columns)) continue;
+    const bool isRenamed = factsOf(group).was == known.info.name;
+    if (!isSameGroup(known.info, group) && !isRenamed) continue;
+    keepNames(known.info, group);
     use.group = static_cast<int>(g);
     known.rows += rows;
     known.channels.push_back(channel);
-    if (!wider) {
-      known.info.name = group.name;
-      known.info.attributes = std::move(group.attributes);
-      return;
-    }
-    known.info = std::move(group);
-    known.channel = channel;
-    widest[g] = use.layout;
+    known.info = {std::move(group.name), mergedColumns(known.info.columns, group.columns),
+                  std::move(group.robot), std::move(group.match), std::move(group.id)};
     return;
   }
   use.group = static_cast<int>(groups.size());
-  groups.push_back({std::move(group), rows, channel, {channel}});
-  widest.push_back(use.layout);
+  groups.push_back({std::move(group), rows, {channel}});
+}
+
+/// Once every channel is known, and with them all columns of each group. The columns of a channel
+/// are read again: to keep those of all channels would take much more memory.
+void SessionReader::Impl::mapRows() {
+  maps.resize(layouts.size());
+  for (const SessionGroup& group : groups) {
+    for (const std::uint16_t channel : group.channels) {
+      const auto& metadata = file.contents().channels.at(channel).metadata;
+      const auto own = group.channels.size() == 1
+                           ? std::optional(group.info)
+                           : session::groupFromJson(metadata.at(std::string(session::groupKey)));
+      if (own) maps[useOfChannel[channel].layout] = RowMap(own->columns, group.info.columns);
+    }
+  }
 }
 
 void SessionReader::Impl::takeChannels() {
@@ -164,11 +181,52 @@ void SessionReader::Impl::takeChannels() {
       continue;
     }
     if (channel.messageEncoding == session::summaryEncoding) continue;  // takeSummaries()
-    const auto schema = file.contents().schemas.find(channel.schema);
+    otherChannels.push_back(id);
+  }
+  mapRows();
+}
+
+void SessionReader::Impl::noteOthers(bool isForeign) {
+  const McapContents& contents = file.contents();
+  if (isForeign) {
+    const std::string library = contents.library.substr(0, 60);
+    return note("Another program recorded this file" +
+                (library.empty() ? std::string() : " (" + library + ")") +
+                ". Make a session of it: File > Open in the studio, or pitchboard-cli import.");
+  }
+  for (const std::uint16_t id : otherChannels) {
+    const McapChannel& channel = contents.channels.at(id);
+    const auto schema = contents.schemas.find(channel.schema);
+    const auto counted = contents.statistics.perChannel.find(id);
+    const std::uint64_t count =
+        counted == contents.statistics.perChannel.end() ? 0 : counted->second;
     note("The channel \"" + channel.topic.substr(0, 80) + "\" (" +
          channel.messageEncoding.substr(0, 20) +
-         (schema == file.contents().schemas.end() ? "" : ", " + schema->second.name.substr(0, 80)) +
+         (schema == contents.schemas.end() ? "" : ", " + schema->second.name.substr(0, 80)) +
          ") is unknown; its " + std::to_string(count) + " messages are left out.");
+  }
+}
+
+/// A group has the name and the facts that were known last.
+void SessionReader::Impl::takeFacts() {
+  for (const McapMetadataInfo& entry : file.contents().metadata) {
+    if (entry.name != session::factsName) continue;
+    const auto values = file.readMetadata(entry);
+    auto found = values ? session::factsFromMetadata(*values) : std::nullopt;
+    if (!found) {
+      note("At byte " + std::to_string(entry.offset) +
+           ": the name of a group is damaged; it is not used.");
+      continue;
+    }
+    for (SessionGroup& group : groups) {
+      if (group.info.id != found->first) continue;
+      GroupInfo now = group.info;
+      now.name = found->second.name;
+      now.robot = found->second.robot;
+      now.match = found->second.match;
+      keepNames(group.info, now);
+      group.info = std::move(now);
+    }
   }
 }
 
@@ -178,10 +236,12 @@ void SessionReader::Impl::takeSummaries() {
     if (channel.messageEncoding != session::summaryEncoding || of == channel.metadata.end())
       continue;
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      const bool ofGroup = std::ranges::any_of(groups[g].channels, [&](std::uint16_t rows) {
-        return file.contents().channels.at(rows).topic == of->second;
+      const auto& channels = groups[g].channels;
+      const auto rows = std::ranges::find_if(channels, [&](std::uint16_t one) {
+        return file.contents().channels.at(one).topic == of->second;
       });
-      if (ofGroup) summaryChannels[static_cast<GroupId>(g)].push_back(id);
+      if (rows == channels.end()) continue;
+      summaryChannels[static_cast<GroupId>(g)][id] = useOfChannel[*rows].layout;
     }
   }
 }
@@ -200,30 +260,39 @@ void SessionReader::Impl::takeChunks() {
   }
 }
 
-/// Empty when it is damaged, which is then noted once. Valid until the next call.
-std::string_view SessionReader::Impl::body(std::size_t chunk) const {
+/// Null when it is damaged, which is then noted once.
+std::shared_ptr<const std::string> SessionReader::Impl::hold(std::size_t chunk) const {
   const auto found =
       std::find_if(kept.begin(), kept.end(), [&](const Kept& one) { return one.chunk == chunk; });
   if (found != kept.end()) {
     kept.splice(kept.begin(), kept, found);
     return kept.front().body;
   }
-  if (damaged.contains(chunk)) return {};
+  if (damaged.contains(chunk)) return nullptr;
   seen[chunk] = true;
   if (kept.size() < keptChunks) {
     kept.emplace_front();
   } else {
     kept.splice(kept.begin(), kept, std::prev(kept.end()));
   }
-  kept.front().chunk = chunk;
-  if (auto read = file.readChunk(file.contents().chunks[chunk], kept.front().body); !read) {
+  Kept& now = kept.front();
+  now.chunk = chunk;
+  // Somebody else may still hold the bytes of the chunk whose memory is reused.
+  if (!now.body || now.body.use_count() > 1) now.body = std::make_shared<std::string>();
+  if (auto read = file.readChunk(file.contents().chunks[chunk], *now.body); !read) {
     losses.push_back(file.lossOf(file.contents().chunks[chunk], read.error().message));
     note(lossText(losses.back(), info.start));
     damaged.insert(chunk);
     kept.pop_front();
-    return {};
+    return nullptr;
   }
-  return kept.front().body;
+  return now.body;
+}
+
+/// Empty when it is damaged. Valid until `keptChunks` others were read.
+std::string_view SessionReader::Impl::body(std::size_t chunk) const {
+  const auto held = hold(chunk);
+  return held ? std::string_view(*held) : std::string_view();
 }
 
 bool SessionReader::check(const std::function<bool(double)>& progress) const {
@@ -255,14 +324,31 @@ const SessionInfo& SessionReader::info() const {
 bool SessionReader::ours() const {
   return m_impl->described || !m_impl->groups.empty();
 }
+bool SessionReader::isForeign() const {
+  return !ours() && !m_impl->file.contents().library.starts_with("pitchboard");
+}
+bool SessionReader::isGrowing() const {
+  return m_impl->file.contents().growing;
+}
+std::span<const std::uint16_t> SessionReader::otherChannels() const {
+  return m_impl->otherChannels;
+}
 bool SessionReader::complete() const {
-  return m_impl->file.contents().indexed;
+  return m_impl->file.contents().whole;
 }
 const std::vector<std::string>& SessionReader::notes() const {
   return m_impl->notes;
 }
 std::span<const SessionGroup> SessionReader::groups() const {
   return m_impl->groups;
+}
+Result<std::vector<GroupId>> SessionReader::groupsNamed(std::string_view name) const {
+  std::vector<const GroupInfo*> infos;
+  for (const SessionGroup& group : m_impl->groups) infos.push_back(&group.info);
+  return telemetry::groupsNamed(name, infos);
+}
+const std::vector<SessionEvent>& SessionReader::addedNotes() const {
+  return m_impl->addedNotes;
 }
 const McapReader& SessionReader::file() const {
   return m_impl->file;

@@ -20,16 +20,22 @@ tl::unexpected<Error> stopped(const std::string& path) {
 class Repair {
  public:
   Repair(const std::string& from, const std::string& to,
-         const std::function<bool(double)>& progress)
-      : m_from(from), m_to(to), m_progress(progress) {}
+         const std::function<bool(double)>& progress, IfExists ifExists)
+      : m_from(from), m_to(to), m_progress(progress), m_ifExists(ifExists) {}
 
   Result<RepairReport> run() {
-    auto target = FileTarget::at(m_to, IfExists::Refuse, m_from);
+    auto target = FileTarget::at(m_to, m_ifExists, m_from);
     if (!target) return tl::unexpected(target.error());
     McapReaderOptions options;
     if (m_progress) options.progress = [this](double part) { return m_progress(part * 0.4); };
     const auto session = SessionReader::open(m_from, options);
     if (!session) return tl::unexpected(session.error());
+    if (session->isGrowing()) {
+      return failure(ErrorCode::Conflict,
+                     "This file is still being recorded, so there is nothing to repair. Stop the "
+                     "recording first.",
+                     m_from);
+    }
     const McapReader& broken = session->file();
     m_report.notes = broken.contents().problems;
     m_report.brokeOff = !broken.contents().ended;
@@ -41,9 +47,10 @@ class Repair {
     }
     auto file = target->open();
     if (!file) return tl::unexpected(file.error());
-    auto copied = copySession(*session, {}, std::move(*file),
-                              {broken.contents().profile, broken.contents().library, 3, true},
-                              [this](double part) { return report(0.4 + 0.4 * part); });
+    auto copied = copySession(
+        *session, {}, std::move(*file),
+        {broken.contents().profile, broken.contents().library, 3, true},
+        [this](double part) { return report(0.4 + 0.4 * part); }, true);
     if (!copied) return m_stopped ? stopped(m_from) : tl::unexpected(copied.error());
     for (const McapLoss& loss : session->losses()) note(loss, *session);
     for (std::string& sentence : copied->missing) missing(std::move(sentence));
@@ -114,6 +121,7 @@ class Repair {
   const std::string& m_from;
   const std::string& m_to;
   const std::function<bool(double)>& m_progress;
+  const IfExists m_ifExists;
   RepairReport m_report;
   bool m_stopped = false;
 };
@@ -125,10 +133,10 @@ std::string RepairReport::summary() const {
   std::snprintf(length, sizeof length, "%.3f s", seconds);
   std::string text = std::to_string(messages) + " messages over " + length + " were saved";
   if (lostMessages > 0) {
-    text += "; " + std::to_string(lostMessages) + (lostMessages == 1 ? " is lost" : " are lost");
-    if (lostMore) text += ", and an unknown number of others";
+    text += "; " + std::to_string(lostMessages) + (lostMore ? " and possibly more" : "") +
+            (lostMessages == 1 && !lostMore ? " is lost" : " are lost");
   } else if (lostMore) {
-    text += "; an unknown number of others is lost";
+    text += "; others are lost, and their number is unknown";
   } else if (brokeOff) {
     text += "; the recording was cut off, so its end may be missing";
   } else if (!complete) {
@@ -138,8 +146,8 @@ std::string RepairReport::summary() const {
 }
 
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
-                                   const std::function<bool(double)>& progress) {
-  return Repair(from, to, progress).run();
+                                   const std::function<bool(double)>& progress, IfExists ifExists) {
+  return Repair(from, to, progress, ifExists).run();
 }
 
 }  // namespace pitchboard::telemetry

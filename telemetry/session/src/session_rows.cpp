@@ -54,9 +54,11 @@ std::string plainName(std::string_view name) {
 std::string comment(const ColumnInfo& column) {
   std::string out = column.name;
   if (!column.unit.empty()) out += " [" + column.unit + "]";
-  for (const auto& [code, word] : column.labels) {
-    out +=
-        (code == column.labels.begin()->first ? ": " : ", ") + std::to_string(code) + " = " + word;
+  // Texts that were received can be very many; they are in the channel's metadata.
+  const std::map<std::int32_t, std::string> none;
+  const auto& labels = column.kind == ColumnKind::Text ? none : column.labels;
+  for (const auto& [code, word] : labels) {
+    out += (code == labels.begin()->first ? ": " : ", ") + std::to_string(code) + " = " + word;
   }
   for (char& c : out) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -97,9 +99,8 @@ std::vector<std::string> fieldNames(const GroupInfo& group) {
 }
 
 std::string rowTopic(const GroupInfo& group) {
-  return (group.attributes.contains("robot") || group.attributes.contains("live") ? "/robots/"
-                                                                                  : "/") +
-         plainName(group.name) + "/row";
+  const RobotFacts& facts = factsOf(group);
+  return (facts.slot > 0 || facts.live ? "/robots/" : "/") + plainName(group.name) + "/row";
 }
 
 std::string rowSchemaName(const GroupInfo& group) {
@@ -189,7 +190,7 @@ bool RowLayout::read(std::string_view bytes, double& time, std::vector<std::uint
 
 std::uint64_t nanoseconds(WallTime start, double seconds) {
   const std::int64_t base = start.time_since_epoch().count();
-  // Beyond 100 years nobody has recorded anything; this keeps the sum inside its type.
+  // Limited to 100 years, so that the sum cannot overflow.
   constexpr double most = 3.2e9;
   const double inside = std::isfinite(seconds) ? std::clamp(seconds, -most, most) : 0.0;
   std::int64_t sum = 0;

@@ -60,7 +60,7 @@ std::optional<SummaryPart> summaryFromBytes(std::string_view bytes, std::size_t 
   if (in.number<std::uint8_t>() != version) return std::nullopt;
   const std::size_t buckets = in.number<std::uint8_t>();
   const std::size_t columns = in.number<std::uint32_t>();
-  if (buckets == 0 || buckets > SummaryPart::mostBuckets || columns > most) return std::nullopt;
+  if (buckets == 0 || buckets > SummaryPart::maxBuckets || columns > most) return std::nullopt;
   SummaryPart part;
   take(in, buckets, part.begin);
   take(in, buckets, part.end);
@@ -131,6 +131,82 @@ bool SessionReader::Impl::summarizeRest(const SessionReader& session,
   return true;
 }
 
+namespace {
+
+/// A part with the columns of the whole group.
+SummaryPart widened(SummaryPart part, const RowMap& map, std::size_t columns) {
+  if (map.isIdentity()) return part;
+  constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+  std::vector<SummaryPart::Column> all(columns, {{nothing}, {nothing}, {nothing}});
+  for (std::size_t c = 0; c < part.columns.size(); ++c) {
+    if (map.columns()[c] < columns) all[map.columns()[c]] = std::move(part.columns[c]);
+  }
+  part.columns = std::move(all);
+  return part;
+}
+
+/// The buckets of one part that begin in this range of times.
+SummaryPart cut(const SummaryPart& part, double begin, double end) {
+  SummaryPart out;
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < part.buckets(); ++i) {
+    if (part.begin[i] < begin || part.begin[i] >= end) continue;
+    out.begin.push_back(part.begin[i]);
+    out.end.push_back(part.end[i]);
+    out.rows.push_back(part.rows[i]);
+    taken.push_back(i);
+  }
+  const auto take = [&taken](const std::vector<float>& from, std::vector<float>& to) {
+    if (from.size() == 1) {
+      to = from;
+      return;
+    }
+    for (const std::size_t bucket : taken) to.push_back(from[bucket]);
+  };
+  for (const SummaryPart::Column& column : part.columns) {
+    SummaryPart::Column& to = out.columns.emplace_back();
+    take(column.min, to.min);
+    take(column.max, to.max);
+    take(column.last, to.last);
+  }
+  return out;
+}
+
+/// Puts parts in order of time. Rows of a group whose columns change go now into one channel, now
+/// into another, and a part of one channel can span several of the other.
+std::vector<SummaryPart> ordered(std::vector<SummaryPart> parts) {
+  const auto begin = [](const SummaryPart& part) { return part.begin.front(); };
+  std::ranges::stable_sort(parts, {}, begin);
+  std::vector<SummaryPart> out;
+  double end = -1e18;  // of what is in `out`
+  while (!parts.empty()) {
+    SummaryPart first = std::move(parts.front());
+    parts.erase(parts.begin());
+    if (first.begin.front() < end) {
+      first = cut(first, end, 1e18);
+      if (first.buckets() == 0) continue;
+      const auto at = std::ranges::upper_bound(parts, begin(first), {}, begin);
+      parts.insert(at, std::move(first));
+      continue;
+    }
+    const double next = parts.empty() ? 1e18 : begin(parts.front());
+    if (first.end.back() > next && first.begin.front() < next) {
+      SummaryPart rest = cut(first, next, 1e18);
+      first = cut(first, -1e18, next);
+      // Version 0.21 continued a bucket after rows of another channel.
+      first.end.back() = std::min(first.end.back(), next);
+      if (rest.buckets() > 0) {
+        parts.insert(std::ranges::upper_bound(parts, begin(rest), {}, begin), std::move(rest));
+      }
+    }
+    end = first.end.back();
+    out.push_back(std::move(first));
+  }
+  return out;
+}
+
+}  // namespace
+
 /// The parts that stand in the file.
 GroupSummary SessionReader::Impl::writtenSummary(GroupId group,
                                                  const std::function<bool()>& goOn) const {
@@ -138,32 +214,27 @@ GroupSummary SessionReader::Impl::writtenSummary(GroupId group,
   const Impl& impl = *this;
   const auto known = impl.summaryChannels.find(group);
   if (known == impl.summaryChannels.end()) return out;
-  const std::vector<std::uint16_t>& channels = known->second;
+  const auto& channels = known->second;
   const std::size_t columns = impl.groups[group].info.columns.size();
   for (std::size_t i = 0; i < impl.file.contents().chunks.size(); ++i) {
     const McapChunkInfo& chunk = impl.file.contents().chunks[i];
-    if (std::ranges::none_of(channels, [&](auto id) { return Impl::mayHold(chunk, id); })) continue;
+    if (std::ranges::none_of(channels,
+                             [&](const auto& one) { return Impl::mayHold(chunk, one.first); })) {
+      continue;
+    }
     if (goOn && !goOn()) return {};
     McapCursor cursor(impl.body(i));
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message ||
-          std::ranges::find(channels, cursor.message().channel) == channels.end()) {
-        continue;
-      }
-      if (auto part = session::summaryFromBytes(cursor.message().data, columns)) {
-        out.parts.push_back(std::move(*part));
+      if (kind != McapCursor::Kind::Message) continue;
+      const auto of = channels.find(cursor.message().channel);
+      if (of == channels.end()) continue;
+      const RowMap& map = impl.maps[of->second];
+      if (auto part = session::summaryFromBytes(cursor.message().data, map.columns().size())) {
+        out.parts.push_back(widened(std::move(*part), map, columns));
       }
     }
   }
-  // The rest of a channel stands at the end, also where another one has followed it.
-  const auto begin = [](const SummaryPart& part) { return part.begin.front(); };
-  std::ranges::stable_sort(out.parts, {}, begin);
-  double end = -1e18;
-  std::erase_if(out.parts, [&end](const SummaryPart& part) {
-    if (part.begin.front() < end) return true;
-    end = part.end.back();
-    return false;
-  });
+  out.parts = ordered(std::move(out.parts));
   return out;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows and messages of a session: of a moment, and of a range in the order of recording.
+// Rows and messages of a session: of a moment, and of a range in the order of time.
 
 #include <algorithm>
 #include <limits>
@@ -60,55 +60,50 @@ void SessionReader::rowsAt(double time, std::vector<SessionRow>& out) const {
         continue;
       }
       out[g].time = Impl::time(out[g].time, last[g]);
+      out[g].channel = last[g].channel;
       out[g].present = true;
     }
   }
 }
 
-template <class Visit>
+TimeOrder SessionReader::Impl::inOrder() const {
+  return {file.contents().chunks, [this](std::size_t chunk) { return hold(chunk); }};
+}
+
 bool SessionReader::Impl::walk(std::uint64_t begin, std::uint64_t end,
-                               const std::vector<std::uint16_t>& wanted, const Visit& visit,
+                               const std::vector<std::uint16_t>& wanted,
+                               const std::function<bool(const SessionItem&)>& visit,
                                const std::function<bool(double)>& progress) const {
-  const auto& chunks = file.contents().chunks;
+  const TimeOrder::Wanted part{
+      begin, end,
+      [&](const McapChunkInfo& chunk) {
+        return std::ranges::any_of(wanted,
+                                   [&](std::uint16_t channel) { return mayHold(chunk, channel); });
+      },
+      [&](std::uint16_t channel) { return std::ranges::binary_search(wanted, channel); }};
   SessionItem item;
   SessionRow row;
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    const McapChunkInfo& chunk = chunks[i];
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
-      return false;
-    }
-    if (chunk.end < begin || chunk.start > end ||
-        std::none_of(wanted.begin(), wanted.end(),
-                     [&](std::uint16_t channel) { return mayHold(chunk, channel); })) {
-      continue;
-    }
-    McapCursor cursor(body(i));
-    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message) continue;
-      const McapMessage& message = cursor.message();
-      if (message.logTime < begin || message.logTime > end ||
-          !std::binary_search(wanted.begin(), wanted.end(), message.channel)) {
-        continue;
-      }
-      const Use use = useOf(message.channel);
-      item.message = &message;
-      item.isRow = use.group != noGroup;
-      if (item.isRow) {
-        const auto g = static_cast<std::size_t>(use.group);
-        if (!readRow(use, message.data, row)) continue;
-        row.time = item.time = time(row.time, message);
-        item.group = static_cast<GroupId>(g);
-        item.row = row.view();
-      } else {
-        const auto source = session::timeFromJson(message.data);
-        if (!source) continue;
-        item.time = time(*source, message);
-        item.stream = use.stream;
-      }
-      if (!visit(item)) return false;
-    }
-  }
-  return true;
+  return inOrder().walk(
+      part,
+      [&](const McapMessage& message) {
+        const Use use = useOf(message.channel);
+        item.message = &message;
+        item.isRow = use.group != noGroup;
+        if (item.isRow) {
+          const auto g = static_cast<std::size_t>(use.group);
+          if (!readRow(use, message.data, row)) return true;
+          row.time = item.time = time(row.time, message);
+          item.group = static_cast<GroupId>(g);
+          item.row = row.view();
+        } else {
+          const auto source = session::timeFromJson(message.data);
+          if (!source) return true;
+          item.time = time(*source, message);
+          item.stream = use.stream;
+        }
+        return visit(item);
+      },
+      progress);
 }
 
 /// In order; rows of all groups when `groups` is empty.
@@ -146,22 +141,8 @@ bool SessionReader::walkFile(TimeRange range, const std::function<bool(const Mca
   const std::uint64_t begin = range.begin <= -1e18 ? 0 : logTime(range.begin);
   const std::uint64_t end =
       range.end >= 1e18 ? std::numeric_limits<std::uint64_t>::max() : logTime(range.end);
-  const auto& chunks = m_impl->file.contents().chunks;
-  for (std::size_t i = 0; i < chunks.size(); ++i) {
-    if (progress && !progress(static_cast<double>(i) / static_cast<double>(chunks.size()))) {
-      return false;
-    }
-    if (chunks[i].end < begin || chunks[i].start > end) continue;
-    McapCursor cursor(m_impl->body(i));
-    for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
-      if (kind != McapCursor::Kind::Message || cursor.message().logTime < begin ||
-          cursor.message().logTime > end) {
-        continue;
-      }
-      if (!visit(cursor.message())) return false;
-    }
-  }
-  return true;
+  const auto all = [](const auto&) { return true; };
+  return m_impl->inOrder().walk({begin, end, all, all}, visit, progress);
 }
 
 void SessionReader::rows(TimeRange range, std::span<const GroupId> groups,
@@ -191,6 +172,31 @@ void SessionReader::messages(
       {});
 }
 
+namespace {
+
+/// A bookmark is recorded when it is set, and again with its note: keeps the last of each time.
+std::vector<SessionEvent> withoutOldNotes(std::vector<SessionEvent> events) {
+  constexpr double sameTime = 1e-6;  // s; files keep whole nanoseconds
+  std::vector<SessionEvent> kept;
+  kept.reserve(events.size());
+  for (SessionEvent& event : events) {
+    if (event.kind == session::bookmarkKind) {
+      const auto same = std::find_if(kept.rbegin(), kept.rend(), [&event](const auto& before) {
+        return before.kind == session::bookmarkKind || event.time - before.time > sameTime;
+      });
+      if (same != kept.rend() && same->kind == session::bookmarkKind &&
+          event.time - same->time <= sameTime) {
+        *same = std::move(event);
+        continue;
+      }
+    }
+    kept.push_back(std::move(event));
+  }
+  return kept;
+}
+
+}  // namespace
+
 std::vector<SessionEvent> SessionReader::events() const {
   std::vector<SessionEvent> out;
   const auto all = range();
@@ -202,9 +208,10 @@ std::vector<SessionEvent> SessionReader::events() const {
     }
     return true;
   });
+  out.insert(out.end(), addedNotes().begin(), addedNotes().end());
   std::stable_sort(out.begin(), out.end(),
                    [](const auto& a, const auto& b) { return a.time < b.time; });
-  return out;
+  return withoutOldNotes(std::move(out));
 }
 
 }  // namespace pitchboard::telemetry

@@ -17,9 +17,9 @@ Battery batteryAt(double volts, const BatteryLimits& limits, double highest) {
           : std::max(1, static_cast<int>(std::ceil(std::clamp(highest, 0.0, 1000.0) / most)));
   const double perCell = volts / battery.cells;
   battery.low = perCell < limits.lowPerCell;
-  constexpr double leastRange = 1e-3;  // V; limits that somebody typed may be equal
+  constexpr double minRange = 1e-3;  // V; limits that somebody typed may be equal
   battery.fraction = std::clamp((perCell - limits.emptyPerCell) /
-                                    std::max(leastRange, limits.fullPerCell - limits.emptyPerCell),
+                                    std::max(minRange, limits.fullPerCell - limits.emptyPerCell),
                                 0.0, 1.0);
   return battery;
 }

@@ -12,7 +12,7 @@ using Limits = DrawingLimits;
 
 constexpr double tolerance = 1e-6;  // s; files keep whole nanoseconds
 // A match that was put back leaves layers of its future behind.
-constexpr double oddestClock = 2 * Limits::longestLife;
+constexpr double oddestClock = 2 * Limits::maxLife;
 
 }  // namespace
 
@@ -34,6 +34,15 @@ void DrawingStore::forgetOld(double time) {
     });
   }
   std::erase_if(m_robots, [](const auto& robot) { return robot.second.empty(); });
+}
+
+void DrawingStore::rename(const std::vector<Renaming>& renamings) {
+  std::map<RobotKey, Layers> now;
+  for (auto& [robot, layers] : m_robots) {
+    const auto found = std::ranges::find(renamings, robot, &Renaming::from);
+    now[found == renamings.end() ? robot : found->to] = std::move(layers);
+  }
+  m_robots = std::move(now);
 }
 
 Result<void> DrawingStore::take(std::string_view text, double time, int team) {

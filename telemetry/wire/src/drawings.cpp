@@ -200,7 +200,7 @@ class DrawingReader {
         layer.frame = static_cast<DrawingFrame>(frame - frameNames.begin());
         continue;
       }
-      const auto life = number(token, Limits::longestLife);
+      const auto life = number(token, Limits::maxLife);
       if (!life || *life <= 0.0) {
         return refuse(
             quotedToken(token) +

@@ -56,11 +56,6 @@ ReadNumber readLabel(const ProfileField& field, std::string_view token) {
   return {missing, {}};
 }
 
-void addError(TextError error, std::size_t index, DecodedText& out) {
-  if (out.errors.empty()) out.badField = index;
-  out.errors.add(error);
-}
-
 void put(const ProfileField& field, std::size_t index, double value, DecodedText& out) {
   if (field.absent && value == *field.absent) {
     // As it was received; nothing is to be seen in it.
@@ -76,6 +71,11 @@ void put(const ProfileField& field, std::size_t index, double value, DecodedText
 }
 
 }  // namespace
+
+void addError(TextError error, std::size_t index, DecodedText& out) {
+  if (out.errors.empty()) out.badField = index;
+  out.errors.add(error);
+}
 
 void clearFields(std::size_t count, DecodedText& out) {
   out.count = count;

@@ -19,6 +19,7 @@ inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 /// Begins a message of `count` fields: none of them is there.
 void clearFields(std::size_t count, DecodedText& out);
 
+void addError(TextError error, std::size_t index, DecodedText& out);
 /// A value that was sent as text.
 void setText(const ProfileField& field, std::size_t index, std::string_view token,
              DecodedText& out);

@@ -174,7 +174,7 @@ RefereeState asVersion7(const RefereeState& state) {
     if (state.kickOffTeam == team.number) out.kickOffRaw = team.colour;
   }
   if (state.version > 8) {
-    // A number becomes a colour; what is not the left team's is the right team's, nobody's too.
+    // A team number becomes a colour; all numbers but the left team's stand for the right team.
     const bool left = state.dropInTeam == state.teams[0].number;
     out.dropInTeam = state.teams[left ? 0 : 1].colour;
   }

@@ -9,7 +9,7 @@ namespace {
 
 /// No datagram waits longer than this in the kernel: a program that is stopped for so long has
 /// other troubles.
-constexpr Duration longestWait = std::chrono::minutes(1);
+constexpr Duration maxWait = std::chrono::minutes(1);
 
 Duration read(clockid_t clock) {
   timespec time{};
@@ -29,7 +29,7 @@ LiveClock::LiveClock(ClockSource source)
 WallTime LiveClock::arrival(WallTime stamp) const {
   const Duration waited = m_source.wall() - stamp;
   const WallTime here = now();
-  return waited < Duration::zero() || waited > longestWait ? here : here - waited;
+  return waited < Duration::zero() || waited > maxWait ? here : here - waited;
 }
 
 }  // namespace pitchboard::telemetry

@@ -41,6 +41,9 @@ class FieldSink {
   void addText(std::string_view key, std::string_view text);
   /// Adds a text that is valid only during the call.
   void addTemporaryText(std::string_view key, std::string_view text);
+  /// Adds what stands without quotes: a word, or a number that may be nan, inf or too large.
+  void addUnquoted(std::string_view key, std::string_view text);
+  void addTemporaryUnquoted(std::string_view key, std::string_view text);
 
  private:
   bool extra(std::string_view key, std::size_t& index);

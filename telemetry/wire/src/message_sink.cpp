@@ -75,4 +75,21 @@ void FieldSink::addTemporaryText(std::string_view key, std::string_view text) {
   addText(key, keep(text, *m_out));
 }
 
+void FieldSink::addUnquoted(std::string_view key, std::string_view text) {
+  const auto error = readFloat(text).error;
+  std::size_t index = 0;
+  if (!error || error == TextError::NotANumber || m_map->find(key, index)) {
+    addText(key, text);
+  } else if (extra(key, index)) {
+    // Kept as a text, it would make a column of texts of a column of numbers.
+    m_out->texts[index] = {};
+    m_out->values[index] = missing;
+    addError(*error, index, *m_out);
+  }
+}
+
+void FieldSink::addTemporaryUnquoted(std::string_view key, std::string_view text) {
+  addUnquoted(key, keep(text, *m_out));
+}
+
 }  // namespace pitchboard::telemetry

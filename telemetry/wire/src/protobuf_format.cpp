@@ -17,7 +17,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
 constexpr int deepest = 8;
-constexpr int mostRepeated = 64;
+constexpr int maxRepeated = 64;
 
 struct Known {
   std::string_view name;
@@ -46,7 +46,7 @@ class Walk {
       const FieldDescriptor* field = type->field(i);
       const std::string path = before + field->name();
       if (field->is_repeated()) {
-        const int count = std::min(reflection->FieldSize(message, field), mostRepeated);
+        const int count = std::min(reflection->FieldSize(message, field), maxRepeated);
         for (int n = 0; n < count; ++n) {
           entry(message, field, n, path + '[' + std::to_string(n) + ']', depth);
         }
@@ -100,7 +100,7 @@ class Walk {
   FieldSink* m_sink;
 };
 
-/// The turn about the vertical of an orientation.
+/// Returns the yaw of an orientation.
 void addYaw(const messages::UtraMessage& message, FieldSink& sink) {
   if (!message.pose().has_orientation()) return;
   const auto& q = message.pose().orientation();

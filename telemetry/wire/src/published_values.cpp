@@ -18,6 +18,8 @@ constexpr std::size_t noIndex = std::numeric_limits<std::size_t>::max();
 constexpr double perMetre = 100.0, perVolt = 10.0, percent = 100.0;
 // Beyond it no field ends; what was sent stays in the message's own columns.
 constexpr double farAway = 1e6;
+// s. A ball that was seen before that is a memory: it may have rolled anywhere since.
+constexpr double maxBallAge = 2.0;
 
 /// Null for what is taken as it is sent.
 const MeaningInfo* publishedOf(FieldMeaning meaning) {
@@ -205,7 +207,10 @@ void PublishedValues::ball(std::span<const double> values, double& distance_cm,
     return m_indices[static_cast<std::size_t>(meaning)] != noIndex;
   };
   if (has(FieldMeaning::BallSeen) && !(sent(values, FieldMeaning::BallSeen) > 0.0)) return;
-  if (has(FieldMeaning::BallAge) && !(sent(values, FieldMeaning::BallAge) >= 0.0)) return;
+  if (has(FieldMeaning::BallAge)) {
+    const double age = sent(values, FieldMeaning::BallAge);
+    if (!(age >= 0.0 && age <= maxBallAge)) return;
+  }
   if (has(FieldMeaning::BallDistance) && has(FieldMeaning::BallAngle)) {
     const double distance = sent(values, FieldMeaning::BallDistance);
     const double bearing = sent(values, FieldMeaning::BallAngle);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string_view>
 
 #include <telemetry/wire/datagram.h>
 
@@ -11,6 +13,25 @@ namespace pitchboard::telemetry {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Names that identify codes for programs; labelOf() has the words for people.
+constexpr std::array<std::string_view, 10> secStates{
+    "NORMAL",      "PENALTYSHOOT", "OVERTIME",  "TIMEOUT", "DIRECT_FREEKICK", "INDIRECT_FREEKICK",
+    "PENALTYKICK", "CORNER_KICK",  "GOAL_KICK", "THROW_IN"};
+constexpr std::array<std::string_view, 3> gameTypes{"ROUNDROBIN", "PLAYOFF", "DROPIN"};
+constexpr std::array<std::string_view, 4> phases{"normal", "penalty shoot-out", "overtime",
+                                                 "timeout"};
+constexpr std::array<std::string_view, 6> setPlaysOfSpl{"none",   "goal kick", "pushing free kick",
+                                                        "corner", "kick-in",   "penalty"};
+constexpr std::array<std::string_view, 7> setPlaysOfHsl{
+    "none", "direct free kick", "indirect free kick", "penalty", "throw-in", "goal kick", "corner"};
+
+std::string_view pick(std::span<const std::string_view> names, int code,
+                      std::string_view otherwise) {
+  return code >= 0 && static_cast<std::size_t>(code) < names.size()
+             ? names[static_cast<std::size_t>(code)]
+             : otherwise;
+}
 
 void put(Json& json, const char* key, const std::optional<int>& value) {
   if (value) json[key] = *value;
@@ -58,23 +79,27 @@ Json stateJson(const RefereeState& state) {
   put(json, "packetNumber", state.packetNumber);
   json["playersPerTeam"] = state.playersPerTeam;
   json["state"] = state.state;
-  json["stateName"] = stateName(state.state);
+  json["stateName"] = labelOf(playStateOf(state.state));
   json["firstHalf"] = state.firstHalf != 0;
   json["kickOffRaw"] = state.kickOffRaw;
   json["kickOffTeamNumber"] = state.kickOffTeam ? Json(*state.kickOffTeam) : Json(nullptr);
   if (state.secState) {
     json["secGameState"] = *state.secState;
-    json["secGameStateName"] = secStateName(*state.secState);
+    json["secGameStateName"] = pick(secStates, *state.secState, "UNKNOWN");
   }
   if (state.gameType) {
     json["gameType"] = *state.gameType;
-    json["gameTypeName"] = gameTypeName(*state.gameType);
+    json["gameTypeName"] = pick(gameTypes, *state.gameType, "UNKNOWN");
   }
   if (state.secStateInfo) json["secGameStateInfoHex"] = hex(*state.secStateInfo);
   put(json, "gamePhase", state.gamePhase);
-  if (state.gamePhase) json["gamePhaseName"] = gamePhaseLabel(*state.gamePhase);
+  if (state.gamePhase) json["gamePhaseName"] = pick(phases, *state.gamePhase, "unknown");
   put(json, "setPlay", state.setPlay);
-  if (state.setPlay) json["setPlayName"] = setPlayName(state.league, *state.setPlay);
+  if (state.setPlay) {
+    const bool isHsl = state.league == League::HumanoidSoccer;
+    json["setPlayName"] = isHsl ? pick(setPlaysOfHsl, *state.setPlay, "unknown")
+                                : pick(setPlaysOfSpl, *state.setPlay, "unknown");
+  }
   put(json, "competitionType", state.competitionType);
   put(json, "competitionPhase", state.competitionPhase);
   put(json, "stopped", state.stopped);

@@ -9,35 +9,87 @@ namespace pitchboard::telemetry {
 RefereeTracker::RefereeTracker() : RefereeTracker(Options{}) {}
 RefereeTracker::RefereeTracker(Options options) : m_options(options) {}
 
-bool RefereeTracker::accept(const RefereeState& state, const Sender& sender, WallTime time) {
+RefereeTracker::Verdict RefereeTracker::accept(const RefereeState& state, const Sender& sender,
+                                               WallTime time) {
   if (state.trueData()) {
     ++m_counts.trueData;
-    m_trueData = state;
+    m_trueGame = gameOf(state);
     m_trueDataTime = time;
-    return false;
+    return Verdict::TrueData;
   }
   if (m_options.version != 0 && state.version != m_options.version) {
     ++m_counts.otherVersions;
-    return false;
+    return Verdict::OtherVersion;
   }
-  const bool fresh = m_state && time - m_time < m_options.hold;
-  // One controller sends its two versions from two sockets: only the address tells controllers
-  // apart.
-  if (fresh && sender.address != m_sender.address) {
-    ++m_counts.otherSenders;
-    m_otherSender = time;
-    return false;
+  const bool isOtherKind = m_options.prefersReal && m_state &&
+                           isSimulated(sender.address) != isSimulated(m_sender.address);
+  if (isOtherKind && isSimulated(sender.address)) {
+    ++m_counts.simulated;
+    return Verdict::Simulated;
   }
-  if (fresh && state.version < m_state->version) {
-    ++m_counts.compatibility;
-    return false;
+  if (m_state && !isOtherKind && time - m_time < m_options.hold) {
+    if (const auto refused = refuse(state, sender, time)) return *refused;
+  } else {
+    m_formerPort = 0;
   }
-  if (fresh) countLoss(state);
+  m_lateSince.reset();
   m_state = state;
+  m_game = gameOf(state);
   m_sender = sender;
   m_time = time;
   ++m_counts.shown;
-  return true;
+  return Verdict::Shown;
+}
+
+/// Beside a fresh state: returns why the packet is not shown, or nothing if it is.
+std::optional<RefereeTracker::Verdict> RefereeTracker::refuse(const RefereeState& state,
+                                                              const Sender& sender, WallTime time) {
+  // One controller sends its two versions from two sockets: only the address tells controllers
+  // apart.
+  if (sender.address != m_sender.address) {
+    ++m_counts.otherSenders;
+    m_otherSender = time;
+    return Verdict::OtherSender;
+  }
+  if (state.version < m_state->version) {
+    ++m_counts.compatibility;
+    return Verdict::Compatibility;
+  }
+  if (state.version > m_state->version) return std::nullopt;
+  if (sender.port != m_sender.port) {
+    if (sender.port != m_formerPort) {
+      m_formerPort = m_sender.port;
+      m_portSince = time;
+      return std::nullopt;
+    }
+    if (time - m_portSince < m_options.restart) {
+      ++m_counts.late;
+      return Verdict::Late;
+    }
+    // It has not ended: two programs of one computer.
+    ++m_counts.otherSenders;
+    m_otherSender = time;
+    return Verdict::OtherSender;
+  }
+  if (!state.packetNumber || !m_state->packetNumber) return std::nullopt;
+  // Other content with the same number is new: not every program counts each packet.
+  if (state == *m_state) {
+    ++m_counts.repeated;
+    m_time = time;
+    m_lateSince.reset();
+    return Verdict::Repeated;
+  }
+  const int behind = (*m_state->packetNumber - *state.packetNumber) & 0xff;
+  if (behind >= 1 && behind <= maxLate) {
+    if (!m_lateSince) m_lateSince = time;
+    if (time - *m_lateSince < m_options.restart) {
+      ++m_counts.late;
+      return Verdict::Late;
+    }
+    return std::nullopt;
+  }
+  countLoss(state);
+  return std::nullopt;
 }
 
 void RefereeTracker::accept(const RobotReply& reply, Address robot, WallTime time) {
@@ -58,12 +110,14 @@ void RefereeTracker::accept(const RobotReply& reply, Address robot, WallTime tim
 }
 
 void RefereeTracker::setOptions(Options options) {
-  if (options.version != m_options.version) m_state.reset();
+  if (options.version != m_options.version) {
+    m_state.reset();
+    m_game.reset();
+  }
   m_options = options;
 }
 
 void RefereeTracker::countLoss(const RefereeState& next) {
-  if (next.version != m_state->version || !next.packetNumber || !m_state->packetNumber) return;
   const int gap = (*next.packetNumber - *m_state->packetNumber) & 0xff;
   // Half a turn of the counter or more is a restarted controller, not a hundred lost packets.
   if (gap > 1 && gap < 128) m_counts.lost += static_cast<std::uint64_t>(gap - 1);

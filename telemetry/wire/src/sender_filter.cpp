@@ -2,6 +2,7 @@
 #include <telemetry/wire/sender_filter.h>
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 
 namespace pitchboard::telemetry {
@@ -23,6 +24,15 @@ Result<void> SenderFilter::add(std::string_view text) {
   const std::uint32_t mask = bits == 0 ? 0U : ~0U << (32U - bits);
   m_ranges.push_back({address->value & mask, mask});
   return {};
+}
+
+std::vector<std::string> SenderFilter::texts() const {
+  std::vector<std::string> texts;
+  for (const Range& range : m_ranges) {
+    const int bits = std::popcount(range.mask);
+    texts.push_back(Address{range.address}.text() + (bits == 32 ? "" : "/" + std::to_string(bits)));
+  }
+  return texts;
 }
 
 bool SenderFilter::allows(Address address) const {

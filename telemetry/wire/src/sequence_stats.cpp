@@ -6,7 +6,7 @@
 namespace pitchboard::telemetry {
 namespace {
 
-constexpr std::uint64_t mostLate = 32, seenNumbers = 64;
+constexpr std::uint64_t maxLate = 32, seenNumbers = 64;
 // At 60 messages a second more than four hours; what is further ahead is no counter.
 constexpr std::uint64_t mostAhead = std::uint64_t{1} << 20;
 constexpr std::uint64_t mostAheadOfAnother = 1000;
@@ -44,7 +44,7 @@ SequenceStats::Step SequenceStats::stepTo(std::uint64_t number, bool moved) {
   if (ahead == 0) return Step::Duplicate;
   const std::uint64_t behind = all - ahead;
   // A higher number is an old one only if the counter has gone over its end since.
-  if (behind <= mostLate && (below || behind < m.span)) {
+  if (behind <= maxLate && (below || behind < m.span)) {
     const std::uint64_t bit = std::uint64_t{1} << behind;
     if ((m.seen & bit) != 0) return Step::Duplicate;
     m.seen |= bit;

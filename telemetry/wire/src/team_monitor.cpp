@@ -31,6 +31,15 @@ Battery batteryOf(double fraction, double volts, const BatteryLimits& limits) {
   return battery;
 }
 
+/// Adds a renaming to those of the same call, which happen at the same time.
+void noteRenaming(std::vector<Renaming>& renamings, const RobotKey& from, const RobotKey& to) {
+  const auto earlier = std::ranges::find(renamings, from, &Renaming::to);
+  if (earlier != renamings.end())
+    earlier->to = to;
+  else
+    renamings.push_back({from, to});
+}
+
 int counterBits(const Profile& profile) {
   const auto counter = profile.indexOf(FieldMeaning::Sequence);
   return counter ? profile.fields[*counter].bits : 0;
@@ -41,7 +50,7 @@ int counterBits(const Profile& profile) {
 TeamMonitor::TeamMonitor(Profile profile, MonitorOptions options)
     : m_options(std::move(options)), m_profile(std::move(profile)) {
   makeRouter();
-  m_robots.reserve(mostPlaces(m_options));
+  m_robots.reserve(maxPlaces(m_options));
 }
 TeamMonitor::~TeamMonitor() = default;
 TeamMonitor::TeamMonitor(TeamMonitor&&) noexcept = default;
@@ -68,6 +77,7 @@ void TeamMonitor::setOptions(MonitorOptions options) {
   if (now == before) return makeRouter();
   // A setup that moved takes its robots along; one that was edited keeps them.
   const auto placeOf = [&](int was) {
+    if (was == simulatedTeam) return was;
     const TeamSetup* setup = setupAt(was, before);
     if (setup == nullptr) return 0;
     const auto moved = std::ranges::find(now, *setup);
@@ -87,7 +97,7 @@ void TeamMonitor::setOptions(MonitorOptions options) {
     const RobotKey old = std::exchange(m_robots[i].key, keys[i]);
     if (old != keys[i]) m_renamings.push_back({old, keys[i]});
   }
-  m_robots.reserve(m_robots.size() + mostPlaces(m_options));
+  m_robots.reserve(m_robots.size() + maxPlaces(m_options));
   makeRouter();
 }
 
@@ -212,7 +222,7 @@ TeamMonitor::Robot* TeamMonitor::findRobot(int team, int number, const Sender& s
     });
     if (teamless != m_robots.end()) {
       const RobotKey key = freeKey(team, number);
-      m_renamings.push_back({teamless->key, key});
+      noteRenaming(m_renamings, teamless->key, key);
       teamless->key = key;
       same = &*teamless;
       if (same->sender == sender) return same;
@@ -257,12 +267,14 @@ void TeamMonitor::foldAway(WallTime time) {
     const auto first = std::ranges::find(m_robots, key, &Robot::key);
     if (first != m_robots.end() && since(time, first->last) < m_options.timeout * 3 / 4) continue;
     m_robots[i].key = key;
+    noteRenaming(m_renamings, second, key);
     if (first != m_robots.end()) m_robots.erase(first);
     i = static_cast<std::size_t>(-1);  // places have changed
   }
 }
 
 void TeamMonitor::forget(const RobotKey& key) {
+  m_renamings.clear();
   std::erase_if(m_robots, [&](const Robot& robot) { return robot.key == key; });
   if (key.sender != 0) return;
   Robot* next = nullptr;
@@ -270,7 +282,9 @@ void TeamMonitor::forget(const RobotKey& key) {
     if (robot.key.team != key.team || robot.key.number != key.number) continue;
     if (next == nullptr || robot.key.sender < next->key.sender) next = &robot;
   }
-  if (next != nullptr) next->key.sender = 0;
+  if (next == nullptr) return;
+  m_renamings.push_back({next->key, key});
+  next->key = key;
 }
 
 TeamMonitor::Verdict TeamMonitor::take(const DatagramView& datagram) {
@@ -353,13 +367,25 @@ std::optional<int> TeamMonitor::placeOf(const DatagramView& datagram,
   return m_router->placeOf(datagram, team);
 }
 
-std::optional<int> TeamMonitor::placeOf(Address sender) const {
-  return m_options.senders.allows(sender) ? m_router->placeOf(sender) : std::nullopt;
+std::optional<int> TeamMonitor::teamOf(Address sender, int number, int ours) const {
+  if (!m_options.senders.allows(sender)) return std::nullopt;
+  const std::vector<int> places = m_router->placesOf(sender);
+  if (places.empty()) return std::nullopt;
+  const auto rank = [&](int place) {
+    const bool sends =
+        !sender.isLoopback() && std::ranges::any_of(m_robots, [&](const auto& robot) {
+          return robot.key.team == place && robot.key.number == number &&
+                 robot.sender.address == sender;
+        });
+    return std::pair(!sends, place != ours);
+  };
+  return *std::ranges::min_element(places, {}, rank);
 }
 
 void TeamMonitor::arrive(Robot& robot, WallTime time) {
   if (robot.messages > 0 && since(time, robot.last) >= m_options.timeout) {
     ++robot.recoveries;
+    robot.offline += since(time, robot.last);
     robot.arrivals = {};
   }
   ++robot.messages;
@@ -412,6 +438,7 @@ RobotStatus TeamMonitor::statusOf(const Robot& robot, WallTime now) const {
   status.messages = robot.messages;
   status.bytes = robot.bytes;
   status.recoveries = robot.recoveries;
+  status.offline = robot.offline;
   status.rate = robot.arrivals.rate(now);
   status.jitter = robot.arrivals.jitter();
   if (robot.decoder->profile().indexOf(FieldMeaning::Sequence)) {

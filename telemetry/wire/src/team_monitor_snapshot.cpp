@@ -20,7 +20,7 @@ using lenient::member;
 using lenient::number;
 using lenient::whole;
 
-constexpr std::size_t mostTexts = DecodedText::maxValues;
+constexpr std::size_t maxTexts = DecodedText::maxValues;
 
 std::int64_t fromZero(WallTime time, WallTime zero) {
   return (time - zero).count();
@@ -77,17 +77,20 @@ class UsualProfiles {
       : m_profile(profile), m_options(options), m_decoders(std::max<std::size_t>(1, teams())) {}
 
   const Profile& of(int team) const {
+    if (team == simulatedTeam) return m_published;
     return teams() == 0 ? m_profile : m_options.teams[placeOf(team)].profile;
   }
   std::shared_ptr<const TextDecoder> decoderOf(int team) {
-    std::shared_ptr<const TextDecoder>& decoder = m_decoders[placeOf(team)];
+    std::shared_ptr<const TextDecoder>& decoder =
+        team == simulatedTeam ? m_simulated : m_decoders[placeOf(team)];
     if (!decoder) decoder = std::make_shared<const TextDecoder>(of(team), whereOf(team));
     return decoder;
   }
   std::size_t teams() const { return m_options.teams.size(); }
   Surroundings whereOf(int team) const {
     Surroundings where = m_options.field;
-    if (teams() > 0) where.attacksLeft = m_options.teams[placeOf(team)].attacksLeft;
+    if (teams() > 0 && team != simulatedTeam)
+      where.attacksLeft = m_options.teams[placeOf(team)].attacksLeft;
     return where;
   }
 
@@ -98,7 +101,9 @@ class UsualProfiles {
   }
 
   const Profile& m_profile;
+  const Profile m_published = publishedProfile();
   const MonitorOptions& m_options;
+  std::shared_ptr<const TextDecoder> m_simulated;
   std::vector<std::shared_ptr<const TextDecoder>> m_decoders;  // by team, made when wanted
 };
 
@@ -106,19 +111,14 @@ struct MonitorSnapshot {
   using Robot = TeamMonitor::Robot;
 
   static MonitorJson written(const Robot& robot, const UsualProfiles& usual, WallTime zero) {
-    MonitorJson json{{"team", robot.key.team},
-                     {"number", robot.key.number},
-                     {"sender", robot.key.sender},
-                     {"address", robot.sender.address.value},
-                     {"port", robot.sender.port},
-                     {"last", fromZero(robot.last, zero)},
-                     {"messages", robot.messages},
-                     {"bytes", robot.bytes},
-                     {"recoveries", robot.recoveries},
-                     {"duplicates", robot.duplicates},
-                     {"highestVolts", robot.highestVolts},
-                     {"hash", robot.lastHash},
-                     {"hashTime", fromZero(robot.lastHashTime, zero)}};
+    MonitorJson json{
+        {"team", robot.key.team},         {"number", robot.key.number},
+        {"sender", robot.key.sender},     {"address", robot.sender.address.value},
+        {"port", robot.sender.port},      {"last", fromZero(robot.last, zero)},
+        {"messages", robot.messages},     {"bytes", robot.bytes},
+        {"recoveries", robot.recoveries}, {"offline", robot.offline.count()},
+        {"duplicates", robot.duplicates}, {"highestVolts", robot.highestVolts},
+        {"hash", robot.lastHash},         {"hashTime", fromZero(robot.lastHashTime, zero)}};
     if (robot.previous) {
       json["previous"] =
           MonitorJson{{"address", robot.previous->address.value}, {"port", robot.previous->port}};
@@ -166,8 +166,9 @@ struct MonitorSnapshot {
     robot.messages = whole<std::uint64_t>(json, "messages");
     robot.bytes = whole<std::uint64_t>(json, "bytes");
     robot.recoveries = whole<std::uint64_t>(json, "recoveries");
+    robot.offline = Duration(whole<std::int64_t>(json, "offline"));
     robot.duplicates = whole<std::uint64_t>(json, "duplicates");
-    each(json, "others", mostTexts, [&](std::size_t, const MonitorJson& other) {
+    each(json, "others", maxTexts, [&](std::size_t, const MonitorJson& other) {
       if (!other.is_object()) return;
       robot.others.push_back({senderFrom(other), timeAt(other, "last", zero)});
     });
@@ -176,7 +177,7 @@ struct MonitorSnapshot {
     robot.charge = number(json, "charge");
     robot.lastHash = whole<std::size_t>(json, "hash");
     robot.lastHashTime = timeAt(json, "hashTime", zero);
-    each(json, "arrivals", mostTexts, [&](std::size_t, const MonitorJson& time) {
+    each(json, "arrivals", maxTexts, [&](std::size_t, const MonitorJson& time) {
       if (time.is_number_integer()) robot.arrivals.add(timeOf(time.get<std::int64_t>(), zero));
     });
     robot.sequence = sequenceFrom(member(json, "sequence"));
@@ -194,11 +195,11 @@ struct MonitorSnapshot {
       robot.processes[i] = {ProcessFilter(number(process, "p").value_or(0.5)),
                             lenient::flag(process, "known"), timeAt(process, "since", zero)};
     });
-    each(json, "values", mostTexts, [&](std::size_t, const MonitorJson& value) {
+    each(json, "values", maxTexts, [&](std::size_t, const MonitorJson& value) {
       robot.values.push_back(value.is_number() ? value.get<double>()
                                                : std::numeric_limits<double>::quiet_NaN());
     });
-    each(json, "words", mostTexts, [&](std::size_t, const MonitorJson& entry) {
+    each(json, "words", maxTexts, [&](std::size_t, const MonitorJson& entry) {
       robot.texts.push_back(entry.is_string()
                                 ? entry.get<std::string>().substr(0, ErrorTally::sampleBytes)
                                 : std::string());
@@ -251,16 +252,17 @@ Result<void> TeamMonitor::restoreRobots(std::string_view text, WallTime zero) {
     return failure(ErrorCode::ParseError, "This is not a saved state of live robots.");
   }
   std::vector<Robot> read;
-  const std::size_t most = mostPlaces(m_options);
+  const std::size_t most = maxPlaces(m_options);
   read.reserve(2 * most);  // to come and there
   UsualProfiles usual(m_profile, m_options);
   for (const MonitorJson& robot : *robots) {
     if (!robot.is_object() || read.size() == most) continue;
     Robot one = MonitorSnapshot::read(robot, usual, zero);
     const RobotKey& key = one.key;
-    const bool possible = key.number >= 1 && key.number <= TextDecoder::maxRobot &&
-                          key.sender >= 0 && key.sender < static_cast<int>(most) && key.team >= 0 &&
-                          static_cast<std::size_t>(key.team) <= m_options.teams.size();
+    const bool possible =
+        key.number >= 1 && key.number <= TextDecoder::maxRobot && key.sender >= 0 &&
+        key.sender < static_cast<int>(most) && key.team >= 0 &&
+        (static_cast<std::size_t>(key.team) <= m_options.teams.size() || key.team == simulatedTeam);
     if (possible) read.push_back(std::move(one));
   }
   m_robots = std::move(read);

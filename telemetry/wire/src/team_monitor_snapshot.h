@@ -9,9 +9,9 @@
 
 namespace pitchboard::telemetry {
 
-/// Robots that may come to those of a monitor: the teams', and those without a team.
-inline std::size_t mostPlaces(const MonitorOptions& options) {
-  return options.mostRobots() + MonitorOptions::ordinaryRobots;
+/// Robots that may come to those of a monitor: the teams', those without a team, simulated ones.
+inline std::size_t maxPlaces(const MonitorOptions& options) {
+  return options.maxRobots() + std::size_t{2} * MonitorOptions::ordinaryRobots;
 }
 
 struct TeamMonitor::Robot {
@@ -25,6 +25,7 @@ struct TeamMonitor::Robot {
   std::optional<Sender> previous;  ///< the one before, when it sends from another one
   bool moved = false;              ///< its last message was the first one of this sender
   WallTime last{};
+  Duration offline{};
   std::uint64_t messages = 0, bytes = 0, recoveries = 0, duplicates = 0;
   ArrivalStats arrivals;
   SequenceStats sequence, previousSequence;

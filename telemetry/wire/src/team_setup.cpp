@@ -20,13 +20,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t mostSetupBytes = 256 * kibibyte, longestText = 60, mostSenders = 64;
+constexpr std::size_t maxSetupBytes = 256 * kibibyte, longestText = 60, mostSenders = 64;
 constexpr int highestTeam = 65535;
 constexpr std::array<std::string_view, 2> directions{"right", "left"};
 constexpr std::array<std::string_view, 9> setupKeys{
     "name", "number", "colour", "ports", "senders", "profile", "model", "attacks", "robots"};
 
-/// Those of the GameController's colours in which robots are drawn.
+/// The GameController's colours in which robots are drawn.
 constexpr std::array<std::string_view, 5> drawnColours{"blue", "red", "black", "orange", "yellow"};
 
 void readPorts(const JsonObject& top, TeamSetup& setup) {
@@ -62,7 +62,7 @@ void readSenders(const JsonObject& top, TeamSetup& setup) {
   }
 }
 
-constexpr int mostNumber = 999;
+constexpr int maxNumber = 999;
 
 void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
   const JsonNode* node = top.find("robots");
@@ -75,7 +75,7 @@ void readRobots(JsonReport& report, const JsonObject& top, TeamSetup& setup) {
     int number = 0;
     const auto [stop, error] = std::from_chars(key.data(), key.data() + key.size(), number);
     if (error != std::errc{} || stop != key.data() + key.size() || number < 1 ||
-        number > mostNumber) {
+        number > maxNumber) {
       return robots.fail(key, "a robot number must be 1 to 999");
     }
     setup.robots[number] = robots.text(key, {}, longestText);
@@ -113,7 +113,7 @@ std::string TeamSetup::title() const {
 
 Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file, Profile profile) {
   JsonReport report(file);
-  const auto root = parseJson(text, report, mostSetupBytes);
+  const auto root = parseJson(text, report, maxSetupBytes);
   if (!root) return tl::unexpected(report.error());
   TeamSetup setup = readSetup(report, JsonObject(report, *root, "", setupKeys));
   if (report.failed()) return tl::unexpected(report.error());
@@ -123,7 +123,7 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file,
 
 Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file) {
   JsonReport report(file);
-  const auto root = parseJson(text, report, mostSetupBytes);
+  const auto root = parseJson(text, report, maxSetupBytes);
   if (!root) return tl::unexpected(report.error());
   const JsonObject top(report, *root, "", setupKeys);
   TeamSetup setup = readSetup(report, top);
@@ -144,7 +144,7 @@ Result<TeamSetup> parseTeamSetup(std::string_view text, const std::string& file)
 }
 
 Result<TeamSetup> loadTeamSetup(const std::string& path) {
-  const auto text = readFile(path, mostSetupBytes, "The team setup");
+  const auto text = readFile(path, maxSetupBytes, "The team setup");
   if (!text) return tl::unexpected(text.error());
   auto setup = parseTeamSetup(*text, path);
   if (setup && !isBuiltIn(setup->profileName)) {
@@ -183,9 +183,9 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
   const auto usual = livePorts(base, count, referee);
   const auto hasNone = [](const TeamSetup& team) { return team.firstPort == 0; };
   if (!usual || teams.empty()) return usual;
-  if (teams.size() > TeamSetup::mostTeams) {
+  if (teams.size() > TeamSetup::maxTeams) {
     return failure(ErrorCode::InvalidArgument,
-                   "At most " + std::to_string(TeamSetup::mostTeams) +
+                   "At most " + std::to_string(TeamSetup::maxTeams) +
                        " teams can be received at the same time; remove some.");
   }
   std::vector<std::uint16_t> ports;
@@ -207,7 +207,8 @@ Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams
 }
 
 TeamRouter::TeamRouter(const Profile& profile, std::vector<TeamSetup> teams,
-                       const Surroundings& where) {
+                       const Surroundings& where)
+    : m_simulated(std::make_shared<const TextDecoder>(publishedProfile(), where)) {
   if (teams.empty()) m_only = std::make_shared<const TextDecoder>(profile, where);
   for (TeamSetup& setup : teams) {
     Team team;
@@ -230,6 +231,11 @@ bool TeamRouter::mayCome(const Team& team, const DatagramView& datagram) const {
 std::shared_ptr<const TextDecoder> TeamRouter::decode(const DatagramView& datagram,
                                                       DecodedText& out) const {
   out.place = 0;
+  if (isSimulated(datagram.sender.address)) {
+    m_simulated->decode(datagram, out);
+    out.place = simulatedTeam;
+    return m_simulated;
+  }
   if (m_only) {
     m_only->decode(datagram, out);
     return m_only;
@@ -255,6 +261,7 @@ std::shared_ptr<const TextDecoder> TeamRouter::decode(const DatagramView& datagr
 
 std::optional<int> TeamRouter::placeOf(const DatagramView& datagram,
                                        std::optional<int> team) const {
+  if (isSimulated(datagram.sender.address)) return simulatedTeam;
   if (m_only) return 0;
   for (std::size_t i = 0; i < m_teams.size(); ++i) {
     const int number = m_teams[i].setup.number;
@@ -265,12 +272,14 @@ std::optional<int> TeamRouter::placeOf(const DatagramView& datagram,
   return std::nullopt;
 }
 
-std::optional<int> TeamRouter::placeOf(Address sender) const {
-  if (m_only) return 0;
+std::vector<int> TeamRouter::placesOf(Address sender) const {
+  if (isSimulated(sender)) return {simulatedTeam};
+  if (m_only) return {0};
+  std::vector<int> places;
   for (std::size_t i = 0; i < m_teams.size(); ++i) {
-    if (m_teams[i].senders.allows(sender)) return static_cast<int>(i) + 1;
+    if (m_teams[i].senders.allows(sender)) places.push_back(static_cast<int>(i) + 1);
   }
-  return std::nullopt;
+  return places;
 }
 
 }  // namespace pitchboard::telemetry

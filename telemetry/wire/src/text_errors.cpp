@@ -27,7 +27,7 @@ constexpr std::array<Text, textErrorCount> texts{{
     {"bad-flag", "flag neither 0 nor 1"},
     {"too-many-fields", "more extra fields than are kept"},
     {"trailing-text", "text after the end word"},
-    {"duplicate", "same message twice"},
+    {"duplicate", "repeated message"},
 }};
 
 }  // namespace
@@ -77,10 +77,22 @@ std::size_t sequenceLength(std::string_view text) {
 }
 
 std::string printable(std::string_view bytes, std::size_t limit) {
-  static constexpr char digits[] = "0123456789abcdef";
   std::string out;
+  addPrintable(out, bytes, limit);
+  return out;
+}
+
+void addPrintable(std::string& out, std::string_view bytes, std::size_t limit) {
+  static constexpr char digits[] = "0123456789abcdef";
   std::size_t i = 0;
   while (i < bytes.size() && i < limit) {
+    const auto isPlain = [](char c) { return c >= 0x20 && c < 0x7f; };
+    const std::string_view rest = bytes.substr(i, limit - i);
+    const auto plain =
+        static_cast<std::size_t>(std::ranges::find_if_not(rest, isPlain) - rest.begin());
+    out += rest.substr(0, plain);
+    i += plain;
+    if (plain == rest.size()) continue;
     const auto byte = static_cast<unsigned char>(bytes[i]);
     const std::size_t length = sequenceLength(bytes.substr(i));
     // U+0080 to U+009F are control characters, too.
@@ -97,7 +109,7 @@ std::string printable(std::string_view bytes, std::size_t limit) {
     out += digits[byte & 15U];
     ++i;
   }
-  return i < bytes.size() ? out + "..." : out;
+  if (i < bytes.size()) out += "...";
 }
 
 }  // namespace pitchboard::telemetry

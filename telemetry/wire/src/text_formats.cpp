@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // key=value, JSON and Lua tables.
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "message_readers.h"
@@ -9,7 +11,9 @@ namespace pitchboard::telemetry {
 namespace {
 
 constexpr std::size_t deepestLevel = 16;
-constexpr std::size_t longestPath = 240;
+constexpr std::size_t maxPathLength = 240;
+// Begins a string that stands for a number that JSON cannot write. No text of a robot begins so.
+constexpr char unquotedMark = '\0';
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
@@ -32,7 +36,7 @@ class Path {
   void key(std::string_view name) {
     if (m_levels.empty()) return;
     m_text.resize(m_levels.back().begin);
-    if (m_text.size() + name.size() + 1 > longestPath) name = "?";
+    if (m_text.size() + name.size() + 1 > maxPathLength) name = "?";
     if (!m_text.empty()) m_text += '.';
     m_text += name;
   }
@@ -44,7 +48,7 @@ class Path {
   void index() {
     if (m_levels.empty() || !m_levels.back().list) return;
     m_text.resize(m_levels.back().begin);
-    if (m_text.size() + 24 > longestPath) return;
+    if (m_text.size() + 24 > maxPathLength) return;
     m_text += '[' + std::to_string(m_levels.back().entry) + ']';
   }
   /// After a value.
@@ -78,7 +82,11 @@ class JsonEvents : public nlohmann::json_sax<nlohmann::json> {
   }
   bool number_float(number_float_t value, const string_t&) override { return number(value); }
   bool string(string_t& value) override {
-    m_sink->addTemporaryText(m_path.text(), value);
+    if (value.starts_with(unquotedMark)) {
+      m_sink->addTemporaryUnquoted(m_path.text(), std::string_view(value).substr(1));
+    } else {
+      m_sink->addTemporaryText(m_path.text(), value);
+    }
     return done();
   }
   bool binary(binary_t&) override { return false; }
@@ -115,6 +123,41 @@ class JsonEvents : public nlohmann::json_sax<nlohmann::json> {
   FieldSink* m_sink;
   Path m_path;
 };
+
+/// NaN, -Infinity, inf, nan(ind), 1e400: what programs write for a number that JSON cannot write.
+bool isBeyondJson(std::string_view token) {
+  double value = 0.0;
+  const char* end = token.data() + token.size();
+  const auto [stop, code] = std::from_chars(token.data(), end, value);
+  return stop == end &&
+         (code == std::errc::result_out_of_range || (code == std::errc{} && !std::isfinite(value)));
+}
+
+/// The text with each of these as a string that begins with `unquotedMark`, so that it does not end
+/// the message. Empty if there are none, which is usual.
+std::string withStringsForNumbers(std::string_view text) {
+  constexpr std::string_view marks = " \t\r\n{}[],:\"";
+  std::string out;
+  std::size_t copied = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] == '"') {
+      for (++at; at < text.size() && text[at] != '"'; ++at) at += text[at] == '\\';
+      ++at;
+      continue;
+    }
+    const std::size_t end = std::min(text.find_first_of(marks, at), text.size());
+    const std::size_t next = text.find_first_not_of(" \t\r\n", end);
+    const bool isKey = next != std::string_view::npos && text[next] == ':';
+    if (const std::string_view token = text.substr(at, end - at); !isKey && isBeyondJson(token)) {
+      out += text.substr(copied, at - copied);
+      out += "\"\\u0000" + std::string(token) + '"';
+      copied = end;
+    }
+    at = std::max(end, at + 1);
+  }
+  if (copied > 0) out += text.substr(copied);
+  return out;
+}
 
 /// One table of Lua: `{["id"]=2, x=1.5, {1, 2}}`.
 class LuaReader {
@@ -187,7 +230,7 @@ class LuaReader {
       if (text == "true" || text == "false") {
         m_sink->number(m_path.text(), text == "true" ? 1.0 : 0.0);
       } else if (text != "nil") {
-        m_sink->addText(m_path.text(), text);
+        m_sink->addUnquoted(m_path.text(), text);
       }
     }
     m_path.next();
@@ -243,7 +286,8 @@ bool readKeyValue(std::string_view text, char separator, FieldSink& sink) {
 
 bool readJson(std::string_view text, FieldSink& sink) {
   JsonEvents events(sink);
-  const std::string_view inner = trimmed(text);
+  const std::string replaced = withStringsForNumbers(text);
+  const std::string_view inner = trimmed(replaced.empty() ? text : std::string_view(replaced));
   return inner.starts_with('{') && nlohmann::json::sax_parse(inner, &events);
 }
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 
 #include <base/system_reason.h>
+#include <base/try.h>
 #include <telemetry/wire/socket_address.h>
 
 namespace pitchboard::telemetry {
@@ -19,6 +20,18 @@ Result<UdpSender> UdpSender::to(Address address) {
                    "cannot allow broadcasts on a UDP socket: " + systemReason(errno));
   }
   return UdpSender(std::move(socket), address);
+}
+
+Result<UdpSender> UdpSender::simulatedTo(Address address) {
+  auto sender = TRY(to(address));
+  if (!isLoopback(address)) return sender;
+  const sockaddr_in own = socketAddress(simulatedAddress, 0);
+  if (::bind(sender.m_socket.get(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0) {
+    return failure(ErrorCode::SystemError,
+                   "Cannot send from " + simulatedAddress.text() + ": " + systemReason(errno) +
+                       ". The loopback interface must have the network 127.0.0.0/8.");
+  }
+  return sender;
 }
 
 bool UdpSender::send(std::uint16_t port, std::string_view datagram) {

@@ -52,10 +52,11 @@ void ReceiveBuffers::prepare() {
   }
 }
 
-Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int receiveBufferBytes) {
+Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int receiveBufferBytes,
+                                  PortUse use) {
   const auto refused = [&](int error) {
-    return failure(ErrorCode::SystemError, "UDP port " + std::to_string(port) +
-                                               " cannot be received: " + reason(error) + ".");
+    return failure(ErrorCode::SystemError, "Cannot receive on UDP port " + std::to_string(port) +
+                                               ": " + reason(error) + ".");
   };
   UdpSocket socket;
   socket.m_fd = UniqueFd(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -64,16 +65,17 @@ Result<UdpSocket> UdpSocket::bind(Address address, std::uint16_t port, int recei
   // started gets the unicast ones whole. SO_REUSEPORT would divide unicast among the listeners by
   // sender, so it is only set where the other listener has it and would be in the way otherwise.
   const int descriptor = socket.descriptor();
-  setOption(descriptor, SO_REUSEADDR, 1);
+  if (use == PortUse::Shared) setOption(descriptor, SO_REUSEADDR, 1);
   const sockaddr_in name = socketAddress(address, port);
   const auto tryBind = [&] {
     return ::bind(descriptor, reinterpret_cast<const sockaddr*>(&name), sizeof name) == 0;
   };
   if (!tryBind()) {
-    if (errno != EADDRINUSE) return refused(errno);
+    if (errno != EADDRINUSE || use == PortUse::First) return refused(errno);
     setOption(descriptor, SO_REUSEPORT, 1);
     if (!tryBind()) return refused(errno);
   }
+  setOption(descriptor, SO_REUSEADDR, 1);
   setOption(descriptor, SO_RCVBUF, receiveBufferBytes);
   setOption(descriptor, SO_RCVBUFFORCE, receiveBufferBytes);
   setOption(descriptor, SO_TIMESTAMPNS, 1);

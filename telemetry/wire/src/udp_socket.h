@@ -33,11 +33,19 @@ struct ReceiveBuffers {
   alignas(cmsghdr) std::array<std::array<char, controlBytes>, messages> controls{};
 };
 
+/// How a port is shared with other programs of this computer. The kernel hands broadcasts to all of
+/// them, but each other datagram to one: the one that bound the port last.
+enum class PortUse : std::uint8_t {
+  Shared,  ///< takes datagrams away from programs that came before
+  First    ///< fails if another program has the port; later ones can share it
+};
+
 /// A bound, non-blocking UDP socket that only receives.
 class UdpSocket {
  public:
   /// Error SystemError with the reason in a sentence.
-  static Result<UdpSocket> bind(Address address, std::uint16_t port, int receiveBufferBytes);
+  static Result<UdpSocket> bind(Address address, std::uint16_t port, int receiveBufferBytes,
+                                PortUse use);
 
   int descriptor() const { return m_fd.get(); }
   std::uint16_t port() const { return m_port; }

@@ -2,6 +2,7 @@
 #include <ui/base/scoreboard_state.h>
 #include <QComboBox>
 #include <QPainter>
+#include <QProgressBar>
 #include <QStandardItemModel>
 #include <QStyleOptionButton>
 #include <QtTest>
@@ -59,6 +60,38 @@ QRect ink(const QImage& image) {
 class TestTheme : public QObject {
   Q_OBJECT
  private slots:
+  /// At 50 and 60 % dark text stood on the accent colour.
+  void theTextOfAProgressBarIsReadable_data() {
+    QTest::addColumn<ThemeChoice>("choice");
+    QTest::newRow("light") << ThemeChoice::Light;
+    QTest::newRow("dark") << ThemeChoice::Dark;
+  }
+  void theTextOfAProgressBarIsReadable() {
+    QFETCH(ThemeChoice, choice);
+    setTheme(*qApp, choice);
+    QProgressBar bar;
+    bar.resize(300, 24);
+    bar.setTextVisible(false);
+    bar.setValue(60);
+    const QImage filled = bar.grab().toImage();
+    const QColor chunk = filled.pixelColor(90, filled.height() / 2);
+    const QColor rest = filled.pixelColor(270, filled.height() / 2);
+    QVERIFY(chunk != rest);
+    const auto luminance = [](const QColor& color) {
+      const auto linear = [](double c) {
+        return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+      };
+      return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+             0.0722 * linear(color.blueF());
+    };
+    for (const QColor& ground : {chunk, rest}) {
+      const double a = luminance(ground), b = luminance(bar.palette().color(QPalette::Text));
+      const double contrast = (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
+      QVERIFY2(contrast >= 4.5, qPrintable(QString::number(contrast)));
+    }
+    setTheme(*qApp, ThemeChoice::Dark);
+  }
+
   void aNumberIsNeverCut_data() {
     QTest::addColumn<QString>("text");
     for (const char* text : {"TIMEOUT 4 min 20 s", "D no reply 4 min 20 s", "−1200.00 mm",
@@ -110,9 +143,32 @@ class TestTheme : public QObject {
       return elideText(metrics, QStringLiteral("walk forward, fast"),
                        metrics.horizontalAdvance(QString::fromUtf8(room)));
     };
-    QCOMPARE(shown("walk forward, f…"), QStringLiteral("walk forward…"));
-    QVERIFY(shown("walk forwa…").startsWith(QStringLiteral("walk for")));
-    QCOMPARE(shown("walk forward,…"), QStringLiteral("walk forward…"));
+    // "slow" or "fast" is what tells them apart.
+    QCOMPARE(shown("walk forward, f…"), QStringLiteral("forward, fast"));
+    QCOMPARE(shown("forward, fast"), QStringLiteral("forward, fast"));
+    QVERIFY(shown("walk for…").startsWith(QStringLiteral("walk")));
+  }
+
+  void namesLoseTheirPrefixFirst() {
+    const QFontMetricsF metrics(themeFont(TypeRole::Body));
+    const auto shown = [&](const char* room) {
+      return elideName(metrics, QStringLiteral("VISION_BALL_DIST B1"),
+                       metrics.horizontalAdvance(QString::fromUtf8(room)));
+    };
+    QCOMPARE(shown("VISION_BALL_DIST B1"), QStringLiteral("VISION_BALL_DIST B1"));
+    QCOMPARE(shown("VISION_BALL_DIST B"), QStringLiteral("BALL_DIST B1"));
+    QVERIFY(shown("BALL_DI B1").contains(QStringLiteral("…")));
+    QVERIFY(shown("BALL_DI B1").endsWith(QStringLiteral("B1")));
+  }
+
+  void figuresKeepTheirNames() {
+    const QFontMetricsF metrics(themeFont(TypeRole::Body));
+    const QString text = QStringLiteral("X 117 cm, Y 32 cm, THETA 180 °");
+    const auto shown = [&](const char* room) {
+      return elideText(metrics, text, metrics.horizontalAdvance(QString::fromUtf8(room)));
+    };
+    QCOMPARE(shown("X 117 cm, Y 32 cm, TH"), QStringLiteral("X 117 cm, Y 32 cm, …"));
+    QCOMPARE(shown("X 117 cm, Y 3"), QStringLiteral("X 117 cm, …"));
   }
 
   void switches() {
@@ -302,6 +358,11 @@ class TestTheme : public QObject {
       combo.addItem(shown);
       return drawn(combo, wide + 10);
     };
+    const auto boxWithIcon = [&](const QString& shown) {
+      QComboBox combo;
+      combo.addItem(themedIcon(QStringLiteral("media-playback-start")), shown);
+      return drawn(combo, wide + 20);
+    };
     // What does not fit looks like a shorter text that ends in the whole number.
     const auto endsInTheNumber = [&](const auto& picture) {
       for (double fits = wide - 1.0; fits > 0.0; fits -= 1.0) {
@@ -313,6 +374,7 @@ class TestTheme : public QObject {
     };
     QVERIFY(endsInTheNumber(cell));
     QVERIFY(endsInTheNumber(box));
+    QVERIFY(endsInTheNumber(boxWithIcon));
   }
 
   void aPastMomentIsNotPausedAndTheClockEndsAtZero() {
@@ -323,8 +385,7 @@ class TestTheme : public QObject {
     QCOMPARE(scoreboardOf(frame).state, QStringLiteral("PAUSED"));
     frame.origin = link::FrameOrigin::Recorded;
     QCOMPARE(scoreboardOf(frame).state, QStringLiteral("PLAYING"));
-    frame.referee.emplace();
-    frame.referee->secondsLeft = -3;
+    frame.game.emplace().clock = -3;
     QCOMPARE(scoreboardOf(frame).clock, QStringLiteral("00:00"));
   }
 
@@ -332,12 +393,13 @@ class TestTheme : public QObject {
     link::MatchFrame frame;
     frame.origin = link::FrameOrigin::Simulated;
     frame.paused = true;
-    link::RefereeView& view = frame.referee.emplace();
-    view.state = "PLAYING";
-    view.setPlay = "corner kick";
-    view.performingTeam = 1;
-    view.countdown = "placement";
-    view.secondaryTime = 8;
+    Game& game = frame.game.emplace();
+    game.state = PlayState::Playing;
+    game.restart.kind = SetPlay::CornerKick;
+    game.restart.step = Restart::Step::Placing;
+    game.restart.team = 0;
+    game.teams[0].number = 1;
+    game.countdown.ticks = 8;
     const ScoreboardState board = scoreboardOf(frame);
     QCOMPARE(board.state, QStringLiteral("PLAYING · corner kick 1 · 8 s · paused"));
     const QFontMetricsF metrics(themeFont(TypeRole::Secondary, true));
@@ -348,8 +410,11 @@ class TestTheme : public QObject {
       QVERIFY(metrics.horizontalAdvance(text) <= width);
       if (shown.isEmpty() || shown.last() != text) shown << text;
     }
-    const QStringList wanted{board.state, QStringLiteral("PLAYING · corner kick 1 · 8 s"),
+    const QStringList wanted{board.state,
+                             QStringLiteral("PLAYING · corner kick 1 · 8 s"),
                              QStringLiteral("PLAYING · corner kick · 8 s"),
+                             QStringLiteral("corner kick 1 · 8 s"),
+                             QStringLiteral("corner kick · 8 s"),
                              QStringLiteral("PLAYING · 8 s")};
     QCOMPARE(shown, wanted);
   }

@@ -34,6 +34,7 @@ inline std::shared_ptr<link::MatchFrame> frameOf(int robots) {
     robot.identity.id = {i + 1};
     robot.identity.number = i / 2 + 1;
     robot.identity.team = i % 2 == 0 ? TeamColor::Blue : TeamColor::Red;
+    robot.uid = link::uidOf(robot.identity.id);
     robot.key = link::keyOf(robot.identity);
     robot.name = robot.identity.name();
     robot.pose = {{-3.0 + 0.7 * i, 1.5 - 0.5 * i}, 0.4 * i};

@@ -115,7 +115,7 @@ class TestFieldDrawings : public QObject {
     QCOMPARE(m_view->picture(size), all);
     QVERIFY(toggle({"Selected robots only"}));
     QCOMPARE(m_view->picture(size), without);
-    m_view->select({red(1)});
+    m_view->select({inSlot(2)});
     now = m_view->picture(size);
     QVERIFY(changed(now, 3.0, -2.5) && !changed(now, 3.0, -2.0));
     m_view->select({});

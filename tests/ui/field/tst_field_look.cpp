@@ -34,26 +34,7 @@ using namespace pitchboard;
 using namespace pitchboard::ui;
 using namespace made_frames;
 
-namespace {
-
-/// The advisor of this robot would kick from the ball to the right, or walk to (0, -2); the ball
-/// will be in the cell in the upper left corner.
-void advise(link::RobotFrame& robot) {
-  auto advice = std::make_shared<link::AdviceView>();
-  advice->isThinking = true;
-  advice->choice = link::AdviceKind::StrongKick;
-  advice->value = 0.08;
-  advice->rollouts = 72;
-  advice->candidates = {{link::AdviceKind::None, {}, 0.01, false},
-                        {link::AdviceKind::StrongKick, {3.0, 0.0}, 0.08, true},
-                        {link::AdviceKind::Stand, {0.0, -2.0}, 0.02, false}};
-  auto heat = std::make_shared<link::BallHeat>(link::BallHeat{16, 10, std::vector<float>(160)});
-  heat->cells[144] = 1.0F;
-  advice->heat = heat;
-  robot.advice = advice;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 class TestFieldLook : public QObject {
   Q_OBJECT
@@ -131,10 +112,8 @@ class TestFieldLook : public QObject {
     frame->robots[2].link.emplace();
     frame->robots[2].link->timedOut = true;
     frame->robots[2].link->age = std::chrono::seconds(12345);
-    frame->robots[3].penalty = link::Penalty{"pushing", 20};
+    frame->robots[3].penalty = link::Penalty{PenaltyKind::Pushing, 20};
     believe(*frame, frame->robots[4], {{2.5, 2.0}, 1.0});
-    advise(frame->robots[5]);
-    advise(frame->robots[0]);
     frame->teamBalls = {{TeamColor::Blue, {1.0, -1.0}, 0.2, 2, 3},
                         {TeamColor::Red, {-2.0, 1.0}, 0.4, 4, 4}};
     telemetry::DrawingStore store;
@@ -145,7 +124,7 @@ class TestFieldLook : public QObject {
     frame->drawings = store.at(0.0);
     for (QAction* layer : m_view->actions().layers) layer->setChecked(true);
     m_view->showFrame(frame);
-    m_view->select({blue(1), red(1)});
+    m_view->select({inSlot(1), inSlot(2)});
     const QPoint middle = m_canvas->viewport()->rect().center();
     for (int i = 0; i < std::abs(zoom); ++i) wheel(middle, zoom > 0 ? 120 : -120);
     QCOMPARE(leftBehind(), QString());
@@ -159,7 +138,7 @@ class TestFieldLook : public QObject {
     QTest::mouseRelease(m_canvas->viewport(), Qt::MiddleButton, {}, middle);
 
     for (const bool follow : {false, true}) {
-      m_view->follow(follow ? std::optional(red(1)) : std::nullopt);
+      m_view->follow(follow ? std::optional(inSlot(2)) : std::nullopt);
       for (int step = 0; step < 5; ++step) {
         auto next = std::make_shared<link::MatchFrame>(*frame);
         next->serial += 1;
@@ -177,7 +156,7 @@ class TestFieldLook : public QObject {
         QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("followed: ") + left));
       }
     }
-    for (const auto& ids : {std::vector<RobotKey>{}, {blue(2)}, {red(2), red(4)}}) {
+    for (const auto& ids : {std::vector<RobotUid>{}, {inSlot(3)}, {inSlot(4), inSlot(8)}}) {
       m_view->select(ids);
       const QString left = leftBehind();
       QVERIFY2(left.isEmpty(), qPrintable(QStringLiteral("selected: ") + left));
@@ -205,9 +184,9 @@ class TestFieldLook : public QObject {
     QFETCH(double, radius);
     std::vector<NamedRobot> crowd;
     for (int i = 0; i < robots; ++i) {
-      crowd.push_back({blue(i + 1), {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
+      crowd.push_back({inSlot(i + 1), {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
     }
-    std::map<RobotKey, int> before;
+    std::map<RobotUid, int> before;
     const auto placed = placeNames(crowd, before);
     QCOMPARE(placed.size(), crowd.size());
     const auto box = [](const PlacedName& name) {
@@ -236,10 +215,10 @@ class TestFieldLook : public QObject {
   void labelsOfACrowdHideNoRobot() {
     std::vector<NamedRobot> crowd;
     for (const QPointF at : {QPointF(0, 0), QPointF(30, 2), QPointF(62, 0), QPointF(30, 32)}) {
-      crowd.push_back({blue(static_cast<int>(crowd.size()) + 1), at, 9.0, {}, {80.0, 14.0}});
+      crowd.push_back({inSlot(static_cast<int>(crowd.size()) + 1), at, 9.0, {}, {80.0, 14.0}});
     }
     const QRectF area(-200, -200, 460, 246);
-    std::map<RobotKey, int> before;
+    std::map<RobotUid, int> before;
     const auto placed = placeTags(crowd, area, before);
     QCOMPARE(placed.size(), crowd.size());
     std::vector<QRectF> boxes;
@@ -254,8 +233,8 @@ class TestFieldLook : public QObject {
       boxes.push_back(box);
     }
     // Names keep off them.
-    std::map<RobotKey, int> none;
-    const std::vector<NamedRobot> two{{blue(1), {0, 0}, 4.0, {18.0, 9.0}}};
+    std::map<RobotUid, int> none;
+    const std::vector<NamedRobot> two{{inSlot(1), {0, 0}, 4.0, {18.0, 9.0}}};
     const QRectF taken(-40, -20, 80, 14);
     const QPointF name = placeNames(two, none, {taken})[0].centre;
     QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
@@ -266,15 +245,15 @@ class TestFieldLook : public QObject {
     std::vector<NamedRobot> all;
     for (const double x : {0.0, 36.0, 72.0, 108.0, 400.0}) {
       const int number = static_cast<int>(all.size()) + 1;
-      all.push_back({blue(number), {x, 0}, 12.0, {}, {70.0, 15.0}, "penalised"});
+      all.push_back({inSlot(number), {x, 0}, 12.0, {}, {70.0, 15.0}, "penalised"});
     }
     const QRectF area(-100, -300, 700, 340);
-    std::map<RobotKey, int> before;
+    std::map<RobotUid, int> before;
     const auto placed = placeTags(all, area, before);
     QCOMPARE(placed.size(), std::size_t{2});
-    QCOMPARE(placed[0].id, blue(1));
+    QCOMPARE(placed[0].id, inSlot(1));
     QCOMPARE(placed[0].centre.x(), 54.0);
-    QCOMPARE(placed[1].id, blue(5));
+    QCOMPARE(placed[1].id, inSlot(5));
     const QRectF box(placed[0].centre - QPointF(35, 7.5), QSizeF(70, 15));
     QVERIFY(area.contains(box));
     for (const NamedRobot& robot : all) {
@@ -287,9 +266,9 @@ class TestFieldLook : public QObject {
   }
 
   void aNumberThatCanBeReadNeedsNoName() {
-    std::map<RobotKey, int> before;
-    const std::vector<NamedRobot> robots{{blue(1), {0, 0}, 10.0, {18.0, 9.0}},
-                                         {blue(2), {21, 0}, 10.0, {18.0, 9.0}}};
+    std::map<RobotUid, int> before;
+    const std::vector<NamedRobot> robots{{inSlot(1), {0, 0}, 10.0, {18.0, 9.0}},
+                                         {inSlot(2), {21, 0}, 10.0, {18.0, 9.0}}};
     QVERIFY(placeNames(robots, before).empty());
   }
 
@@ -319,64 +298,22 @@ class TestFieldLook : public QObject {
     QVERIFY(before <= 12.0);
   }
 
-  void advisorsAreDrawnInTheirLayers() {
-    auto frame = frameOf(2);
-    frame->ballKnown = true;
-    frame->snapshot.ball = {1.0, 0.0};
-    frame->robots[0].pose = {{-1.0, -2.0}, 0.0};
-    advise(frame->robots[0]);
-    for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
-    m_view->showFrame(frame);
-    const QSize size(1040, 740);  // 100 pixels a metre, the centre mark in the middle
-    const QImage without = m_view->picture(size);
-    const auto differs = [&](const QImage& now, double x, double y) {
-      const QPoint pixel(520 + qRound(100 * x), 370 - qRound(100 * y));
-      return now.pixel(pixel) != without.pixel(pixel);
-    };
-    QAction* candidates = m_view->actions().layers[std::size_t(FieldLayer::AdvisorCandidates)];
-    candidates->setChecked(true);
-    QImage now = m_view->picture(size);
-    QVERIFY(differs(now, 2.0, 0.0));    // the kick starts at the ball
-    QVERIFY(differs(now, -0.5, -2.0));  // the walk starts at the robot
-    QVERIFY(!differs(now, -2.0, 0.5));
-    m_view->select({red(1)});  // only of selected robots, and this one has no advisor
-    QVERIFY(!differs(m_view->picture(size), 2.0, 0.0));
-    m_view->select({});
-    candidates->setChecked(false);
-    m_view->actions().layers[std::size_t(FieldLayer::AdvisorHeat)]->setChecked(true);
-    now = m_view->picture(size);
-    QVERIFY(differs(now, -4.2, 2.7));
-    QVERIFY(!differs(now, 4.2, -2.7) && !differs(now, 2.0, 0.0));
-    QVERIFY(hoverText(*frame, blue(1)).contains(QStringLiteral("Advisor: strong kick")));
-    // Old advice is not drawn.
-    auto old = std::make_shared<link::AdviceView>(*frame->robots[0].advice);
-    old->isThinking = false;
-    frame = std::make_shared<link::MatchFrame>(*frame);
-    frame->robots[0].advice = old;
-    m_view->showFrame(frame);
-    QCOMPARE(m_view->picture(size), without);
-  }
-
-  void aForecastIsDrawnUntilItIsTakenAway() {
+  void aHeatMapIsDrawnUntilItIsTakenAway() {
     auto frame = frameOf(1);
     for (QAction* layer : m_view->actions().layers) layer->setChecked(false);
     m_view->showFrame(frame);
     const QSize size(1040, 740);
     const QImage without = m_view->picture(size);
-    auto forecast = std::make_shared<Forecast>();
-    auto heat = std::make_shared<link::BallHeat>(link::BallHeat{36, 24, std::vector<float>(864)});
+    auto heat = std::make_shared<BallHeat>(BallHeat{36, 24, std::vector<float>(864)});
     heat->cells[12 * 36 + 27] = 0.5F;  // x 2.25 to 2.5 m, y 0 to 0.25 m
-    forecast->heat = heat;
-    forecast->best = ForecastAction{{0, -2}, Point{2, -2}, QStringLiteral("Kicks now"), false};
-    m_view->showForecast(forecast);
+    m_view->showHeat(heat);
     QCOMPARE(m_view->picture(size), without);  // its layer is off
     m_view->actions().layers[std::size_t(FieldLayer::Exploration)]->setChecked(true);
     const QImage now = m_view->picture(size);
     const QColor warm(now.pixel(520 + 237, 370 - 12)), grass(without.pixel(520 + 237, 370 - 12));
     QVERIFY(warm.red() > grass.red() + 60 && warm.green() > grass.green() + 30);
-    QVERIFY(now.copy(540, 565, 160, 10) != without.copy(540, 565, 160, 10));
     QCOMPARE(leftBehind(), QString());
-    m_view->showForecast(nullptr);
+    m_view->showHeat(nullptr);
     QCOMPARE(m_view->picture(size), without);
   }
 
@@ -408,7 +345,7 @@ class TestFieldLook : public QObject {
     path->points = {{0.0, 0.0}, {1.25, -0.5}};
     frame->robots[0].cognitionDebug = link::CognitionDebug{RobotId{1}, nullptr, path, 0.0, 0.0};
     m_view->showFrame(frame);
-    const QString text = hoverText(*frame, blue(1));
+    const QString text = hoverText(*frame, inSlot(1));
     for (const char* part : {"B1 Lea · Striker", "Action: stop", "Target: x 1.25 m",
                              "Belief: 50 cm and 29° off, σ 30 cm"}) {
       QVERIFY2(text.contains(QString::fromUtf8(part)), qPrintable(text));
@@ -421,7 +358,7 @@ class TestFieldLook : public QObject {
     QHelpEvent beside(QEvent::ToolTip, ground, m_canvas->viewport()->mapToGlobal(ground));
     QCoreApplication::sendEvent(m_canvas->viewport(), &beside);
     QTRY_VERIFY(!QToolTip::isVisible());
-    QVERIFY(hoverText(*frame, blue(9)).isEmpty());
+    QVERIFY(hoverText(*frame, inSlot(17)).isEmpty());
   }
 
   // By the formula of the Web Content Accessibility Guidelines, 4.5 for small text: the lightest
@@ -459,7 +396,7 @@ class TestFieldLook : public QObject {
       RobotLook look;
       look.tag = QStringLiteral("timeout 37 s");
       look.opacity = 0.45;
-      auto* robot = new RobotItem(&style, blue(1));
+      auto* robot = new RobotItem(&style, inSlot(1));
       robot->setLook(look);
       centre = {0, 40};
       robot->setTagPosition(centre);

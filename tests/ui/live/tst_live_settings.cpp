@@ -26,7 +26,7 @@
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "bad_messages_model.h"
 #include "live_rig.h"
@@ -48,7 +48,7 @@ class TestLiveSettings : public QObject {
     Dialog d;
     d.box<QSpinBox>("portBase")->setValue(5000);
     d.box<QSpinBox>("robots")->setValue(6);
-    d.box<QSpinBox>("ourTeam")->setValue(12);
+    d.box<QLineEdit>("ourTeam")->setText(QStringLiteral("12"));
     d.box<QDoubleSpinBox>("timeout")->setValue(4.5);
     d.box<QSpinBox>("cells")->setValue(3);
     d.box<QLineEdit>("senders")->setText(QStringLiteral("192.168.0.0/24, 10.0.0.7"));
@@ -210,7 +210,7 @@ class TestLiveSettings : public QObject {
     live.setOptions(live_rig::options());
     live.start();
     MatchController match{link::MatchOptions()};
-    SourceSwitch source(&match);
+    ShownMoment source(&match);
     AttachedBoards boards(&match, &live, &source, &settings);
     AttachDialog dialog(&boards, nullptr);
     dialog.setAttribute(Qt::WA_DeleteOnClose, false);
@@ -251,6 +251,17 @@ class TestLiveSettings : public QObject {
     QVERIFY(!dialog.attach());
     QVERIFY(!dialog.findChild<QLabel*>(QStringLiteral("attachMessage"))->text().isEmpty());
     QCOMPARE(live.options().boards.size(), std::size_t(1));
+  }
+
+  void theRowsOfARobotWakeTheCurves() {
+    LiveController live;
+    live.setOptions(live_rig::options());
+    QSignalSpy appended(&live, &FrameSource::rowsAppended);
+    live.start();
+    const live_rig::Robot robot(live.options(), 1);
+    QTRY_VERIFY(robot.sendMessage(live_rig::message(1)) && !appended.isEmpty());
+    const qsizetype before = appended.size();
+    QTRY_VERIFY(robot.sendMessage(live_rig::message(1)) && appended.size() > before);
   }
 
   void badMessagesAreListedByKindRobotAndSender() {

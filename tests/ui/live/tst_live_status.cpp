@@ -33,7 +33,8 @@ class TestLiveStatus : public QObject {
     LiveStatus status;
     link::LiveDetails details;
     link::MatchFrame frame;
-    frame.referee.emplace().version = 12;
+    frame.game.emplace();
+    frame.reception.version = 12;
     for (int i = 0; i < 100; ++i) {
       const double seconds = i * 0.2;
       details.referee.shown = static_cast<std::uint64_t>(seconds * 2.0 + 0.3);
@@ -67,6 +68,24 @@ class TestLiveStatus : public QObject {
              qPrintable(status.update({}, &frame, 0.0).trouble));
     frame.robots.pop_back();
     QVERIFY(status.update({}, &frame, 1.0).trouble.startsWith("B3 has been offline"));
+  }
+
+  void theNewestProblemIsShown() {
+    LiveStatus status;
+    link::MatchFrame frame;
+    frame.robots = {robot(3, 0, 60.0)};
+    frame.robots[0].uid = RobotUid{3};
+    QVERIFY(status.update({}, &frame, 0.0).trouble.startsWith("B3 has been offline"));
+    frame.reception.conflict = true;
+    const LiveStatusText later = status.update({}, &frame, 5.0);
+    QCOMPARE(later.trouble, QStringLiteral("A second referee program is sending (+1 more)"));
+    QVERIFY2(later.tip.contains("B3 has been offline"), qPrintable(later.tip));
+    // A robot that goes offline after that is newer again.
+    frame.robots.push_back(robot(4, 0, 11.0));
+    frame.robots[1].uid = RobotUid{4};
+    QVERIFY(status.update({}, &frame, 9.0).trouble.startsWith("B4 has been offline"));
+    frame.robots.pop_back();
+    QVERIFY(status.update({}, &frame, 10.0).trouble.startsWith("A second referee"));
   }
 };
 

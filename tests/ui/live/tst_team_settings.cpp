@@ -249,7 +249,7 @@ class TestTeamSettings : public QObject {
     QVERIFY(editor->saveTo(path));
     QVERIFY(d.dialog->apply());
     QCOMPARE(d.live.options().profile.fields[14].name, std::string("BATTERY"));
-    QCOMPARE(loadLiveSettings(d.settings).profileFile, path);
+    QCOMPARE(QString::fromStdString(loadLiveSettings(d.settings).options.profileFile), path);
   }
 };
 

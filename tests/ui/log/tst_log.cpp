@@ -11,13 +11,14 @@
 #include <QTimer>
 #include <QToolButton>
 #include <QtTest>
+#include <map>
 
 #include <ui/base/text_filter.h>
 #include <ui/base/time_axis.h>
 #include <ui/log/log_dock.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/shown_moment.h>
 
 #include "log_model.h"
 
@@ -41,9 +42,8 @@ class TestLog : public QObject {
   /// The panel with nothing but what the test says.
   struct Panel {
     MatchController controller{link::MatchOptions{}};
-    SourceSwitch shown{&controller};
-    Timeline timeline{&shown};
-    std::unique_ptr<QWidget> dock{makeLogDock(&controller, &shown, &timeline, nullptr)};
+    ShownMoment shown{&controller};
+    std::unique_ptr<QWidget> dock{makeLogDock(&controller, &shown, nullptr)};
     QTableView* table = dock->findChild<QTableView*>();
     QToolButton* follow = dock->findChild<QToolButton*>(QStringLiteral("logFollow"));
     Panel() {
@@ -61,7 +61,7 @@ class TestLog : public QObject {
     const QAbstractItemModelTester tester(&model, Mode::QtTest);
     std::vector<LogLine> reported = lines(3);
     reported[1].cause = 7;
-    model.append(reported, {}, SourceKind::Simulate);
+    model.append(reported, {}, &SourceKind::Simulate);
     const auto struck = [&model](int row) {
       return model.index(row, LogModel::Text).data(Qt::FontRole).value<QFont>().strikeOut();
     };
@@ -70,8 +70,36 @@ class TestLog : public QObject {
     model.strike(SourceKind::Simulate, 7);
     QVERIFY(!struck(0) && struck(1) && !struck(2));
     // Done again it counts: later lines of the same decision are plain.
-    model.append({reported[1]}, {}, SourceKind::Simulate);
+    model.append({reported[1]}, {}, &SourceKind::Simulate);
     QVERIFY(struck(1) && !struck(3));
+  }
+
+  /// Simulated and live lines stand together, because both go on; what a file says does not.
+  void linesOfASessionAreShownWithIt() {
+    Panel p;
+    ReplayController replay;
+    p.dock.reset();
+    p.shown.add(&replay);
+    const std::unique_ptr<QWidget> dock(makeLogDock(&p.controller, &p.shown, nullptr));
+    const auto texts = [&dock] {
+      const QAbstractItemModel* model = dock->findChild<QTableView*>()->model();
+      QStringList all;
+      for (int row = 0; row < model->rowCount(); ++row) {
+        all << model->index(row, LogModel::Text).data().toString();
+      }
+      return all;
+    };
+    emit p.controller.logReceived({{1.0, "B1 decision", "played"}});
+    emit replay.logReceived({{1.0, "B1 decision", "recorded"}});
+    QCOMPARE(texts(), QStringList{QStringLiteral("played")});
+    p.shown.choose(&replay);
+    QCOMPARE(texts(), (QStringList{QStringLiteral("played"), QStringLiteral("recorded")}));
+    // Another session has other lines.
+    emit replay.restarted();
+    emit replay.logReceived({{1.0, "B1 decision", "recorded later"}});
+    QCOMPARE(texts(), (QStringList{QStringLiteral("played"), QStringLiteral("recorded later")}));
+    p.shown.choose(&p.controller);
+    QCOMPARE(texts(), QStringList{QStringLiteral("played")});
   }
 
   void anUndoneGoalIsStruckThroughInTheLog() {
@@ -136,7 +164,7 @@ class TestLog : public QObject {
     QVERIFY(saved[0].endsWith("\tB1 decision\tkicks") && saved[1].endsWith("\tR1\tkicks"));
   }
 
-  // Who scrolls up reads on undisturbed; the button, or the end of the list, follows again.
+  // Scrolling up stops following; the button, or scrolling to the end, follows again.
   void followKeepsTheNewestLineInView() {
     Panel panel;
     emit panel.controller.logReceived(lines(500));
@@ -159,6 +187,33 @@ class TestLog : public QObject {
     QVERIFY(panel.follow->isChecked());
   }
 
+  /// Times of day and of long sessions were dots, and a new filter left the place.
+  void timesAreReadableAndAFilterKeepsThePlace() {
+    Panel panel;
+    QVERIFY(QTest::qWaitForWindowActive(panel.dock.get()));
+    for (const char* text : {"23:59:59.999", "-1:02:03.456"}) {
+      const double wide = QFontMetricsF(panel.table->font()).horizontalAdvance(QLatin1String(text));
+      QVERIFY(panel.table->columnWidth(LogModel::Time) >= wide + 8);
+    }
+    std::vector<LogLine> many = lines(200);
+    for (std::size_t i = 0; i < many.size(); i += 10) many[i].text += " goal";
+    emit panel.controller.logReceived(many);
+    QTest::mouseClick(panel.follow, Qt::LeftButton);
+    panel.table->scrollTo(panel.table->model()->index(100, 0), QAbstractItemView::PositionAtTop);
+    auto* words = panel.dock->findChild<QLineEdit*>(QStringLiteral("logFilter"));
+    const auto top = [&panel] {
+      const QModelIndex first = panel.table->model()->index(panel.table->rowAt(0), LogModel::Text);
+      return first.data().toString();
+    };
+    QCOMPARE(top(), QStringLiteral("line 100 goal"));
+    QTest::keyClicks(words, QStringLiteral("goal"));
+    QCOMPARE(panel.table->model()->rowCount(), 20);
+    QTest::keyClick(words, Qt::Key_A, Qt::ControlModifier);
+    QTest::keyClick(words, Qt::Key_Delete);
+    QCOMPARE(panel.table->model()->rowCount(), 200);
+    QVERIFY2(std::abs(panel.table->rowAt(0) - 100) <= 10, qPrintable(top()));
+  }
+
   void theLogIsBounded() {
     LogModel model;
     const QAbstractItemModelTester tester(&model, Mode::QtTest);
@@ -176,7 +231,7 @@ class TestLog : public QObject {
 
   void aFloodKeepsTheGoals() {
     LogModel model;
-    model.append({{1.0, "referee", "goal BLUE", LogLevel::Info}}, {}, SourceKind::Simulate, true);
+    model.append({{1.0, "referee", "goal BLUE", LogLevel::Info}}, {}, &SourceKind::Simulate, true);
     model.append({{1.5, "B2 vision", "one quiet line", LogLevel::Info}});
     const std::vector<LogLine> burst(1000, {2.0, "B1 decision", "again", LogLevel::Info});
     for (int i = 0; i < 15; ++i) model.append(burst);
@@ -186,14 +241,44 @@ class TestLog : public QObject {
     QCOMPARE(model.dropped(), quint64(15'002 - LogModel::maxLines));
   }
 
+  void theLongestPartsGiveUpTheirOldestLines() {
+    LogModel model;
+    const QAbstractItemModelTester tester(&model, Mode::QtTest);
+    std::vector<LogLine> mixed;
+    for (int i = 0; i < 3000; ++i) {
+      const double time = i;
+      mixed.push_back({time, "B1 decision", "a " + std::to_string(i), LogLevel::Info});
+      mixed.push_back({time, "B2 decision", "b " + std::to_string(i), LogLevel::Info});
+      if (i % 10 == 0) mixed.push_back({time, "B3 vision", "quiet", LogLevel::Info});
+    }
+    model.append(mixed, {}, &SourceKind::Simulate);
+    model.append(mixed, {}, &SourceKind::Simulate);
+    QCOMPARE(model.rowCount(), int(LogModel::maxLines));
+    QCOMPARE(model.dropped(), quint64(12'600 - LogModel::maxLines));
+    std::map<QString, int> counts;
+    for (int row = 0; row < model.rowCount(); ++row) {
+      ++counts[model.index(row, LogModel::Origin).data().toString()];
+    }
+    QCOMPARE(counts[QStringLiteral("B3 vision")], 600);
+    QCOMPARE(counts[QStringLiteral("B1 decision")], 4700);
+    QCOMPARE(counts[QStringLiteral("B2 decision")], 4700);
+    QCOMPARE(model.index(0, LogModel::Text).data().toString(), QStringLiteral("quiet"));
+    // Put back: of both passes the lines until then are left.
+    model.rewind(SourceKind::Simulate, 1299.5);
+    for (int row = 0; row < model.rowCount(); ++row) {
+      QVERIFY(model.index(row, LogModel::Time).data(LogModel::timeRole).toDouble() < 1299.5);
+    }
+    QCOMPARE(model.rowCount(), 130 + 130 + 2 * 1300);
+  }
+
   void aRestartIsADivider() {
     LogModel model;
     model.setMoment(SourceKind::Simulate, {});
     model.divide(SourceKind::Simulate, QStringLiteral("Match started, 14:03"));
     QCOMPARE(model.rowCount(), 0);  // nothing stands before it
-    model.append({{80.0, "B1", "old", LogLevel::Info}}, {}, SourceKind::Simulate);
+    model.append({{80.0, "B1", "old", LogLevel::Info}}, {}, &SourceKind::Simulate);
     model.divide(SourceKind::Simulate, QStringLiteral("Match started, 14:03"));
-    model.append({{1.0, "B1", "new", LogLevel::Info}}, {}, SourceKind::Simulate);
+    model.append({{1.0, "B1", "new", LogLevel::Info}}, {}, &SourceKind::Simulate);
     QCOMPARE(model.rowCount(), 3);
     QCOMPARE(model.index(1, LogModel::Text).data().toString(),
              QStringLiteral("Match started, 14:03"));

@@ -14,17 +14,28 @@
 #include <ui/base/plot_target.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 
 class PlotSource : public FrameSource {
  public:
   PlotSource() { restart(); }
-  SourceKind kind() const override { return SourceKind::Simulate; }
+  const SourceKind& kind() const override { return SourceKind::Simulate; }
   FramePtr frame() const override { return shown; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return store; }
   QString emptyText() const override { return {}; }
+  FramePtr frameAt(double time) const override { return made(time); }
+  static FramePtr made(double time) {
+    auto frame = std::make_shared<link::MatchFrame>();
+    frame->snapshot.time = time;
+    return frame;
+  }
+  /// It has come to this time.
+  void goTo(double time) {
+    shown = made(time);
+    emit frameReceived(shown);
+  }
 
   void restart() {
     store = std::make_shared<telemetry::SeriesStore>();
@@ -74,15 +85,15 @@ class PlotSource : public FrameSource {
 /// What a dock gets, without a window.
 struct PlotBench {
   PlotSource source;
-  SourceSwitch sources{&source};
-  LinkedTime time;
+  ShownMoment sources{&source};
+  LinkedTime time{&sources};
   PlotTarget target;
   QTemporaryDir folder;
   QSettings settings{folder.filePath(QStringLiteral("settings.ini")), QSettings::IniFormat};
 
   PlotsContext context() {
     PlotsContext context;
-    context.source = &sources;
+    context.shown = &sources;
     context.time = &time;
     context.settings = &settings;
     context.plots = &target;

@@ -4,8 +4,7 @@
 #include <QtTest>
 
 #include <ui/base/theme.h>
-#include <ui/sources/playback.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
 
 #include "../support/menu_entry.h"
@@ -25,32 +24,18 @@ namespace {
 
 class MomentSource : public PlotSource {
  public:
-  FramePtr made(double time) const {
-    auto frame = std::make_shared<link::MatchFrame>();
-    frame->snapshot.time = time;
-    return frame;
-  }
-  FramePtr frame() const override { return m_frame; }
-  FramePtr frameAt(double time) const override { return made(time); }
-  void goTo(double time) {
-    m_frame = made(time);
-    emit frameReceived(m_frame);
-  }
   void happen(double time, link::MatchEventKind kind, const char* robot) {
     const int number = QString::fromLatin1(robot).mid(1).toInt();
-    emit eventsReceived({{kind, time, *robot == 'R' ? red(number) : blue(number), robot}});
+    emit eventsReceived(
+        {{kind, time, link::uidOf(*robot == 'R' ? red(number) : blue(number)), robot}});
   }
-
- private:
-  FramePtr m_frame;
 };
 
 /// 30 s of B1, as a chart that follows with a window of 15 s.
 struct Bench {
   MomentSource source;
-  SourceSwitch shown{&source};
-  LinkedTime time;
-  Timeline timeline{&shown};
+  ShownMoment timeline{&source};
+  LinkedTime time{&timeline};
   TimelineActions actions{&timeline, &time, nullptr, nullptr};
   telemetry::GroupId group = source.fill("B1", 30.0);
   std::unique_ptr<PlotsDock> dock;
@@ -58,9 +43,8 @@ struct Bench {
 
   Bench() {
     PlotsContext context;
-    context.source = &shown;
+    context.shown = &timeline;
     context.time = &time;
-    context.timeline = &timeline;
     dock = std::make_unique<PlotsDock>(context, nullptr);
     dock->resize(1000, 300);
     dock->show();
@@ -94,17 +78,17 @@ class TestOneMoment : public QObject {
     const telemetry::TimeRange before = b.time.range();
     QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(20.0));
     QVERIFY(b.timeline.isLookingBack());
-    QVERIFY(std::abs(b.timeline.shownTime() - 20.0) < onePixel);
-    QCOMPARE(b.time.moment(), std::optional(b.timeline.shownTime()));
+    QVERIFY(std::abs(b.timeline.time() - 20.0) < onePixel);
+    QCOMPARE(b.time.playhead(), std::optional(b.timeline.time()));
     // What was clicked at stays where it is, and a click is no drag.
     QCOMPARE(b.time.range(), before);
     QVERIFY(b.time.isFollowing());
-    const double tick = std::floor(b.timeline.shownTime() * 60.0 + 1e-9) / 60.0;
+    const double tick = std::floor(b.timeline.time() * 60.0 + 1e-9) / 60.0;
     QEvent leave(QEvent::Leave);
     QApplication::sendEvent(b.chart->surface(), &leave);
     QCOMPARE(b.legend(), valueText(PlotSource::distanceAt(tick)));
     b.timeline.goLive();
-    QVERIFY(!b.time.moment());
+    QCOMPARE(b.time.playhead(), std::optional(30.0));
     QCOMPARE(b.legend(), valueText(PlotSource::distanceAt(30.0)));
   }
 
@@ -139,7 +123,7 @@ class TestOneMoment : public QObject {
     QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(20.0));
     QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(25.0));
     QTest::mouseDClick(b.chart->surface(), Qt::LeftButton, {}, b.at(25.0));
-    QVERIFY(std::abs(b.timeline.shownTime() - 20.0) < onePixel);
+    QVERIFY(std::abs(b.timeline.time() - 20.0) < onePixel);
     QCOMPARE(b.time.range(), (telemetry::TimeRange{0.0, 30.0}));
     b.timeline.goLive();
     QTest::mouseClick(b.chart->surface(), Qt::LeftButton, {}, b.at(10.0));
@@ -154,12 +138,12 @@ class TestOneMoment : public QObject {
     QCOMPARE(b.time.range().begin, 14.5);  // a tenth of 15 s stays free at the edge
     b.timeline.seek(5.0);
     QCOMPARE(b.time.range().begin, 3.5);
-    b.timeline.past()->setPaused(false);
-    b.timeline.past()->advance(12.5);
-    QCOMPARE(b.timeline.shownTime(), 17.5);
+    b.timeline.setPaused(false);
+    b.timeline.advance(12.5);
+    QCOMPARE(b.timeline.time(), 17.5);
     QCOMPARE(b.time.range().end, 19.0);
-    b.timeline.past()->setPaused(true);
-    // Who has gone elsewhere by hand is left there.
+    b.timeline.setPaused(true);
+    // A range that the user has chosen stays.
     b.time.setRange({0.0, 4.0});
     b.timeline.seek(18.0);
     QCOMPARE(b.time.range(), (telemetry::TimeRange{0.0, 4.0}));
@@ -196,18 +180,18 @@ class TestOneMoment : public QObject {
     b.source.happen(10.0, link::MatchEventKind::Goal, "");
     b.source.happen(20.0, link::MatchEventKind::Fall, "B1");
     b.timeline.seek(25.0);
-    b.timeline.past()->setPaused(false);
+    b.timeline.setPaused(false);
     b.actions.previous()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 20.0);
-    b.timeline.past()->advance(0.4);
+    QCOMPARE(b.timeline.time(), 20.0);
+    b.timeline.advance(0.4);
     b.actions.previous()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 10.0);
+    QCOMPARE(b.timeline.time(), 10.0);
     // Later it is the event just left that is meant.
     b.actions.next()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 20.0);
-    b.timeline.past()->advance(4.0);
+    QCOMPARE(b.timeline.time(), 20.0);
+    b.timeline.advance(4.0);
     b.actions.previous()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 20.0);
+    QCOMPARE(b.timeline.time(), 20.0);
   }
 
   void eventsAreFilteredByKindAndRobot() {
@@ -226,14 +210,14 @@ class TestOneMoment : public QObject {
     QVERIFY(entry(QStringLiteral("Kicks the ball (2)")));
     entry(QStringLiteral("Kicks the ball"))->trigger();
     b.actions.previous()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 15.0);
+    QCOMPARE(b.timeline.time(), 15.0);
     entry(QStringLiteral("Only B1"))->trigger();
     b.actions.previous()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 10.0);
+    QCOMPARE(b.timeline.time(), 10.0);
     QVERIFY(!b.timeline.goToNextEvent());
     entry(QStringLiteral("All"))->trigger();
     b.actions.next()->trigger();
-    QCOMPARE(b.timeline.shownTime(), 15.0);
+    QCOMPARE(b.timeline.time(), 15.0);
     QVERIFY(!entry(QStringLiteral("All"))->isEnabled());
   }
 

@@ -70,12 +70,16 @@ class TestPlotCurves : public QObject {
     QTest::newRow("conversion") << radians << std::numbers::pi << "rad";
     CurveSpec difference = derivedOf(CurveKind::Difference);
     difference.inputs << "B1/DIST";
-    QTest::newRow("difference") << difference << 180.0 - PlotSource::distanceAt(2.0) << "°";
+    QTest::newRow("difference") << difference << 180.0 - PlotSource::distanceAt(2.0)
+                                << "";  // of ° and cm
     CurveSpec expression;
     expression.kind = CurveKind::Expression;
     expression.expression = "hypot(B1.ANGLE, {B2/DIST}) + t";
     QTest::newRow("expression") << expression << std::hypot(180.0, PlotSource::distanceAt(2.0)) + 2
                                 << "";
+    expression.expression = "B1.DIST / 100 * t";
+    QTest::newRow("expression in m·s")
+        << expression << PlotSource::distanceAt(2.0) / 100 * 2 << "m·s";
   }
   void derivedCurves() {
     QFETCH(CurveSpec, spec);
@@ -141,11 +145,11 @@ class TestPlotCurves : public QObject {
     QTest::newRow("no group") << "VISION_BALL_DIST * 2"
                               << "VISION_BALL_DIST";
     QTest::newRow("open") << "(B1.X + 2"
-                          << "parenthes";
+                          << "')' is missing";
     QTest::newRow("operator") << "B1.X + * 2"
-                              << "position";
+                              << "character 8";
     QTest::newRow("function") << "sinus(B1.X)"
-                              << "position 5";
+                              << "'sinus' at character 1";
     QTest::newRow("arguments") << "hypot(B1.X)"
                                << "hypot";
     QTest::newRow("brace") << "{B1/X + 2"
@@ -155,7 +159,8 @@ class TestPlotCurves : public QObject {
     QTest::newRow("assignment") << "B1.X = 4"
                                 << "character 6";
     QTest::newRow("too long") << QString(5000, QLatin1Char('1')) << "longer";
-    QTest::newRow("odd characters") << QString::fromUtf8("B1.X + §ß") << "cannot be read";
+    QTest::newRow("odd characters")
+        << QString::fromUtf8("B1.X + §ß") << QString::fromUtf8("'§' at character 8");
   }
   void invalidExpressionsAreReported() {
     QFETCH(QString, text);
@@ -293,10 +298,10 @@ class TestPlotCurves : public QObject {
 
     QTemporaryDir folder;
     const QString png = folder.filePath("a.png");
-    QVERIFY(savePlotPng(*dock.currentPage(), png).has_value());
+    QVERIFY(savePlotPicture(plotPng(*dock.currentPage()), png).has_value());
     QCOMPARE(QImage(png).width(), 2 * dock.currentPage()->picture()->width());
     const QString svg = folder.filePath("a.svg");
-    QVERIFY(savePlotSvg(*dock.currentPage(), svg).has_value());
+    QVERIFY(savePlotPicture(plotSvg(*dock.currentPage()), svg).has_value());
     QFile drawing(svg);
     QVERIFY(drawing.open(QIODevice::ReadOnly));
     const QByteArray text = drawing.readAll();
@@ -312,8 +317,26 @@ class TestPlotCurves : public QObject {
     QVERIFY(niceLimits(17, 295, 3).limits == (ValueLimits{0, 300}));
     QVERIFY(niceLimits(5, 5, 4).limits.low < 5 && niceLimits(5, 5, 4).limits.high > 5);
     QVERIFY(niceLimits(0, 0, 4).limits == (ValueLimits{-1, 1}));
+    // A value at a limit is not hidden by the frame.
+    const ValueLimits roomy = niceLimits(0, 100, 2, 0.05).limits;
+    QVERIFY(roomy.low <= -5 && roomy.high >= 105);
+    QVERIFY(niceLimits(20, 80, 2, 0.05).limits == (ValueLimits{0, 100}));
     QCOMPARE(decimalsOf(0.05), 2);
     QCOMPARE(decimalsOf(20), 0);
+  }
+
+  /// One number says nothing about a scale.
+  void twoNumbersLieWithinAnyLimits() {
+    for (int most = 1; most <= 12; ++most) {
+      for (double low = -130.0; low < 130.0; low += 7.3) {
+        for (const double span : {0.004, 0.37, 1.0, 9.99, 41.0, 1e6}) {
+          const double step = labelStep({low, low + span}, most);
+          const double first = std::ceil(low / step - 1e-9) * step;
+          QVERIFY2(first + step <= low + span + 1e-9 * span,
+                   qPrintable(QStringLiteral("%1 + %2, %3").arg(low).arg(span).arg(most)));
+        }
+      }
+    }
   }
 
   void limitsAreTypedWithCommaOrPoint() {

@@ -2,6 +2,7 @@
 // Marks A and B of the plots: where they stand, what they measure, what happened between them.
 
 #include <QAbstractItemModelTester>
+#include <QTableView>
 #include <QtTest>
 
 #include <simcore/world/action_codes.h>
@@ -31,11 +32,28 @@ class TestPlotMarks : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
+  /// The table beside them does not take half of the curves.
+  void theCurvesStayWide() {
+    for (const int width : {1000, 1600}) {
+      Shown s;
+      s.dock->resize(width, 300);
+      const PlotPane* pane = s.dropped({"B1/DIST"});
+      QCoreApplication::processEvents();
+      const int before = pane->width();
+      s.time.showMarks(true);
+      QTRY_VERIFY(s.page()->marksPanel()->isVisible());
+      QTRY_VERIFY2(pane->width() < before && pane->width() >= before * 3 / 5,
+                   qPrintable(QStringLiteral("%1 of %2").arg(pane->width()).arg(before)));
+      const auto* table = s.dock->findChild<QTableView*>(QStringLiteral("marksTable"));
+      QVERIFY(table->columnWidth(MarksModel::Name) >= 90);
+    }
+  }
+
   void marksMeasure() {
     Shown s;
     s.dropped({"B1/DIST"});
-    s.time.setMark(TimeMark::A, 4.0);
-    s.time.setMark(TimeMark::B, 10.0);
+    s.time.shown()->setMark(TimeMark::A, 4.0);
+    s.time.shown()->setMark(TimeMark::B, 10.0);
     MarksModel* model = s.page()->marksPanel()->model();
     QTRY_COMPARE(model->rowCount(), 1);
     // Independently, from the definition.
@@ -76,19 +94,20 @@ class TestPlotMarks : public QObject {
     const auto lineOfA = [&] {
       const QPoint left = s.pane()->surface()->mapTo(s.page(), QPoint());
       return heads->mapFrom(s.page(), left).x() +
-             s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::A));
+             s.pane()->timeAxis().pixel(*s.time.shown()->mark(TimeMark::A));
     };
     QTRY_VERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - lineOfA()) < 1.5);
     const QPoint from = heads->headRect(TimeMark::A).center().toPoint();
-    const double before = *s.time.mark(TimeMark::A);
+    const double before = *s.time.shown()->mark(TimeMark::A);
     drag(heads, from, from + QPoint(50, 0));
-    QVERIFY(*s.time.mark(TimeMark::A) > before);
+    QVERIFY(*s.time.shown()->mark(TimeMark::A) > before);
     QVERIFY(std::abs(heads->headRect(TimeMark::A).center().x() - (from.x() + 50)) < 1.5);
     // The line itself, over a plot.
     QWidget* surface = s.pane()->surface();
-    const int x = int(std::lround(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B))));
+    const int x = int(std::lround(s.pane()->timeAxis().pixel(*s.time.shown()->mark(TimeMark::B))));
     drag(surface, {x, 30}, {x - 60, 30});
-    QVERIFY(std::abs(s.pane()->timeAxis().pixel(*s.time.mark(TimeMark::B)) - (x - 60)) < 1.5);
+    QVERIFY(std::abs(s.pane()->timeAxis().pixel(*s.time.shown()->mark(TimeMark::B)) - (x - 60)) <
+            1.5);
     s.time.showMarks(false);
     QVERIFY(!heads->isVisible());
   }
@@ -110,7 +129,7 @@ class TestPlotMarks : public QObject {
   void eventsBetweenTheMarksAreNamed() {
     std::deque<link::MatchEvent> events;
     for (const double time : {1.0, 2.0, 3.0, 4.0, 9.0}) {
-      events.push_back({link::MatchEventKind::Kick, time, blue(1), "B1"});
+      events.push_back({link::MatchEventKind::Kick, time, link::uidOf(blue(1)), "B1"});
     }
     PlotBench bench;
     PlotFeed feed(&bench.source, &bench.time);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Value axes and units: what is converted, what goes to the right, what gets a plot of its own.
+#include <QGraphicsTextItem>
+#include <QGraphicsView>
 #include <QJsonDocument>
 #include <QtTest>
 
@@ -50,8 +52,8 @@ struct Units : Bench {
   QStringList names;
 };
 
-void chooseInPlotMenu(PlotsDock& dock, PlotPane* pane, const QString& text) {
-  emit pane->menuRequested(-1, pane->mapToGlobal(QPoint(60, 30)));
+void chooseInPlotMenu(PlotsDock& dock, PlotPane* pane, const QString& text, int curve = -1) {
+  emit pane->menuRequested(curve, pane->mapToGlobal(QPoint(60, 30)));
   auto* menu = dock.findChild<QMenu*>(QStringLiteral("plotMenu"));
   QVERIFY(menu);
   QAction* action = menu_entry::called(menu->actions(), text);
@@ -67,6 +69,24 @@ class TestPlotUnits : public QObject {
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
 
+  // DIST is 100 + 50 sin t: highest at 1.57 s and 7.85 s, lowest at 4.71 s.
+  void aCurvesExtremesAreReached() {
+    Bench b;
+    b.source.goTo(10.0);
+    PlotPane* pane = b.show(variableCurve(QStringLiteral("B1/DIST")));
+    b.dock->feed()->refresh();
+    QTRY_VERIFY(!pane->curves()[0].isWaiting());
+    const auto isAt = [&](double time) { return std::abs(b.sources.time() - time) < 0.02; };
+    chooseInPlotMenu(*b.dock, pane, QStringLiteral("Go to minimum"), 0);
+    QVERIFY2(isAt(4.71), qPrintable(QString::number(b.sources.time())));
+    b.sources.setSelection(telemetry::TimeRange{0.0, 4.0});
+    chooseInPlotMenu(*b.dock, pane, QStringLiteral("Go to maximum"), 0);
+    QVERIFY2(isAt(1.57), qPrintable(QString::number(b.sources.time())));
+    b.sources.setSelection(telemetry::TimeRange{5.0, 10.0});
+    chooseInPlotMenu(*b.dock, pane, QStringLiteral("Go to maximum"), 0);
+    QVERIFY2(isAt(7.85), qPrintable(QString::number(b.sources.time())));
+  }
+
   void theAxesArePlanned_data() {
     QTest::addColumn<QStringList>("units");
     QTest::addColumn<QString>("plan");  // of each: left or right, factor, ! for a stranger
@@ -74,7 +94,9 @@ class TestPlotUnits : public QObject {
     QTest::newRow("converted") << QStringList{"m", "cm", "mm"} << "m|: l1 l0.01 l0.001";
     QTest::newRow("two") << QStringList{"cm", "°", "rad", "m"} << "cm|°: l1 r1 r57.2958 l100";
     QTest::newRow("three") << QStringList{"cm", "°", "V"} << "cm|°: l1 r1 r1!";
-    QTest::newRow("none is known") << QStringList{"", "m", ""} << "m|: l1 l1 l1";
+    QTest::newRow("none is known") << QStringList{"", "m", ""} << "m|: r1 l1 r1";
+    QTest::newRow("unknown beside two") << QStringList{"cm", "°", ""} << "cm|°: l1 r1 r1!";
+    QTest::newRow("all unknown") << QStringList{"", ""} << "|: l1 l1";
     QTest::newRow("a team's own") << QStringList{"bananas", "bananas", "apples"}
                                   << "bananas|apples: l1 l1 r1";
     QTest::newRow("speeds") << QStringList{"m/s", "cm/s", "°/s"} << "m/s|°/s: l1 l0.01 r1";
@@ -160,6 +182,77 @@ class TestPlotUnits : public QObject {
     const LegendEntry stranger = b.chart()->legend()->entries().value(2);
     QVERIFY(stranger.odd);
     QCOMPARE(stranger.side, QStringLiteral("right [V]"));
+  }
+
+  /// It was drawn flat on the axis of the others.
+  void aComputedCurveIsReadAtItsOwnUnit() {
+    Units b({"cm", "°"});  // 100 cm and 200 °
+    PaneSpec spec;
+    spec.curves << variableCurve(b.names[0]) << expression(QStringLiteral("B9.U0 / 50 + t"))
+                << expression(QStringLiteral("B9.U0 / 100 + 0"));
+    auto* chart = qobject_cast<ChartPane*>(b.dock->currentPage()->insertPane(0, spec));
+    const auto planned = [&] {
+      b.dock->feed()->refresh();
+      return chart->axes().places.size() == 3 && chart->curves()[1].view() &&
+             chart->curves()[2].view() && chart->hasRightAxis();
+    };
+    QTRY_VERIFY(planned());
+    // The unit of cm and s together is unknown: an axis of its own.
+    QVERIFY(chart->axes().places[1].right);
+    QCOMPARE(chart->curves()[1].unit(), QString());
+    // Metres are read at the centimetres, a hundred of them for each.
+    QCOMPARE(chart->curves()[2].unit(), QStringLiteral("m"));
+    QVERIFY(!chart->axes().places[2].right);
+    QCOMPARE(chart->axes().places[2].factor, 100.0);
+  }
+
+  /// A flat curve at the limit lay under the frame, and a low plot had one number or none.
+  void everyCurveAndTwoNumbersAreSeen_data() {
+    QTest::addColumn<int>("height");
+    for (const int height : {55, 60, 72, 85, 110, 200}) QTest::addRow("%d px", height) << height;
+  }
+  void everyCurveAndTwoNumbersAreSeen() {
+    QFETCH(int, height);
+    Units b({"cm", "°"});  // 100 and 200
+    b.dock->plotVariables({b.names[0]});
+    ChartPane* chart = b.chart();
+    b.time.setRange({0.0, 10.0});
+    b.dock->resize(700, 500);
+    QCoreApplication::processEvents();
+    chart->setFixedHeight(height + chart->legend()->height());
+    QCoreApplication::processEvents();
+    const auto numbers = [chart] {
+      int seen = 0;
+      for (const QGraphicsItem* item : chart->findChild<QGraphicsView*>()->scene()->items()) {
+        const auto* text = qgraphicsitem_cast<const QGraphicsTextItem*>(item);
+        const bool isNumber =
+            text != nullptr && text->isVisible() && !text->toPlainText().isEmpty() &&
+            (text->toPlainText().back().isDigit() || text->toPlainText().back() == '.');
+        const QRectF place = isNumber ? text->sceneBoundingRect() : QRectF();
+        if (isNumber && place.bottom() > 0 && place.left() < 100) ++seen;
+      }
+      return seen;
+    };
+    for (const auto& [low, high] :
+         {std::pair(0.0, 0.0), {0.0, 100.0}, {37.0, 151.0}, {99.0, 108.0}, {3.0, 1000.0}}) {
+      PaneSpec options = chart->spec();
+      options.autoValues = low == high;
+      // Qt hides numbers at the very limits, which only a higher plot has others beside.
+      if (!options.autoValues && height < 110) continue;
+      options.values = {low, high};
+      chart->setOptions(options);
+      QCoreApplication::processEvents();
+      QVERIFY2(
+          numbers() >= 2,
+          qPrintable(QStringLiteral("%1 numbers from %2 to %3").arg(numbers()).arg(low).arg(high)));
+    }
+    PaneSpec options = chart->spec();
+    options.autoValues = true;
+    chart->setOptions(options);
+    const ValueScale scale = chart->valueScale();
+    QVERIFY(scale.bottom - scale.top >= height - 16);
+    const double y = scale.toY(100.0);
+    QVERIFY(y > scale.top + 2 && y < scale.bottom - 2);
   }
 
   void theChosenAxisIsKept() {

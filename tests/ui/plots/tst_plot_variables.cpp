@@ -6,7 +6,10 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QUndoStack>
 #include <QtTest>
+#include <array>
+#include <map>
 
 #include <ui/base/theme.h>
 
@@ -63,6 +66,83 @@ class TestPlotVariables : public QObject {
     // From a plain curve by the menu's way.
     QCOMPARE(forEachGroup(variableCurve(QStringLiteral("B2/DIST"))).inputs,
              QStringList(QStringLiteral("each/DIST")));
+  }
+
+  /// The plotted curve redrew itself with another robot's past when the referee's operator
+  /// corrected the colours.
+  void aCurveStaysThatOfItsRobot() {
+    Bench b(QStringList{});
+    const auto named = [](const char* id, const char* name) {
+      telemetry::GroupInfo info;
+      info.id = id;
+      info.name = name;
+      telemetry::ColumnInfo column;
+      column.name = "DIST";
+      info.columns = {column};
+      return info;
+    };
+    std::map<std::string, telemetry::GroupId> groups;
+    int sent = 0;
+    const auto rows = [&](int count) {
+      for (int i = 0; i < count; ++i) {
+        const double time = 0.1 * sent++;  // a sum of tenths would be a little later than 2.0
+        for (const auto& [id, group] : groups) {
+          const double value = id == "1" ? 100.0 + i : 700.0 + i;
+          b.source.store->append(group, {time, {}, std::span(&value, 1)});
+        }
+      }
+      b.dock->feed()->refresh();
+    };
+    groups["1"] = b.source.store->addGroup(named("1", "B1"));
+    groups["2"] = b.source.store->addGroup(named("2", "R1"));
+    rows(50);
+    PaneSpec chart;
+    CurveSpec derived;
+    derived.kind = CurveKind::Derivative;
+    derived.inputs << QStringLiteral("B1/DIST");
+    CurveSpec hidden = variableCurve(QStringLiteral("R1/DIST"));
+    hidden.hidden << QStringLiteral("DIST R1");
+    chart.curves = {variableCurve(QStringLiteral("B1/DIST")), hidden,
+                    expression(QStringLiteral("B1.DIST - {R1/DIST}")), derived,
+                    expression(QStringLiteral("{curve/d/dt DIST B1} * 2"))};
+    b.dock->setLayoutSpec({{PageSpec{QStringLiteral("one"), {chart}}}, 0});
+    const auto pane = [&b] { return b.dock->currentPage()->panes()[0]; };
+    const auto drawn = [&](double first, double second, double difference) {
+      b.dock->feed()->refresh();
+      pane()->refresh();
+      const auto& curves = pane()->curves();
+      return curves[0].valueAt(2.0) == first && curves[1].valueAt(2.0) == second &&
+             curves[2].valueAt(2.0) == difference;
+    };
+    QTRY_VERIFY(drawn(120.0, 720.0, -600.0));
+    // Corrected, corrected back, and again: with rows in between.
+    for (int swap = 0; swap < 3; ++swap) {
+      const bool isSwapped = swap % 2 == 0;
+      b.source.store->describeGroups(
+          std::array{named("1", isSwapped ? "R1" : "B1"), named("2", isSwapped ? "B1" : "R1")});
+      rows(10);
+      const QString ours = isSwapped ? QStringLiteral("R1") : QStringLiteral("B1");
+      const QString theirs = isSwapped ? QStringLiteral("B1") : QStringLiteral("R1");
+      QTRY_VERIFY(drawn(120.0, 720.0, -600.0));
+      QCOMPARE(pane()->curves()[0].name(), QStringLiteral("DIST ") + ours);
+      QVERIFY(!pane()->curves()[0].isHidden() && pane()->curves()[1].isHidden());
+      QCOMPARE(namesOf(pane()).value(3), QStringLiteral("d/dt DIST ") + ours);
+      QVERIFY(!pane()->curves()[4].isFaulty());
+      const QList<CurveSpec> kept = b.dock->layoutSpec().pages[0].panes[0].curves;
+      QCOMPARE(kept[0].inputs, QStringList(ours + QStringLiteral("/DIST")));
+      QCOMPARE(kept[2].expression, QStringLiteral("%1.DIST - %2.DIST").arg(ours, theirs));
+      QCOMPARE(kept[4].expression, QStringLiteral("{curve/d/dt DIST %1} * 2").arg(ours));
+    }
+    // What is dragged there now is the robot that has the name now, and an undone change comes back
+    // with its own robot.
+    pane()->addCurve(variableCurve(QStringLiteral("B1/DIST")));
+    QCOMPARE(pane()->curves().size(), std::size_t(5));  // it is there already
+    pane()->removeCurve(0);
+    b.source.store->describeGroups(std::array{named("1", "B1"), named("2", "R1")});
+    rows(1);
+    b.dock->undoStack()->undo();
+    QTRY_VERIFY(pane()->curves().size() == 5 && drawn(120.0, 720.0, -600.0));
+    QCOMPARE(pane()->curves()[0].name(), QStringLiteral("DIST B1"));
   }
 
   void curvesAreMadeOfCurves() {
@@ -134,18 +214,35 @@ class TestPlotVariables : public QObject {
     }
   }
 
-  /// A plot of "Robot 1" shows B1 once the colour is known, and the other way round.
-  void aRobotIsFoundByItsOtherName() {
-    Bench b({QStringLiteral("B1"), QStringLiteral("Robot 2"), QStringLiteral("R3"),
-             QStringLiteral("B3")});
+  /// A layout of "Robot 1" shows that robot after the referee has told its colour.
+  void aRobotIsFoundByAFormerName() {
+    Bench b(QStringList{});
+    std::uint32_t uid = 0;
+    const auto add = [&](const char* name, const char* former) {
+      telemetry::GroupInfo info;
+      info.name = name;
+      info.id = std::to_string(++uid);
+      telemetry::RobotFacts& facts = info.robot.emplace();
+      facts.uid = {uid};
+      facts.formerNames = {former};
+      info.columns.resize(1);
+      info.columns[0].name = "DIST";
+      const auto group = b.source.store->addGroup(info);
+      for (const double time : {0.0, 20.0}) {
+        const double value = uid;
+        b.source.store->append(group, {time, {}, {&value, 1}});
+      }
+    };
+    add("B1", "Robot 1");
+    add("R2", "Robot 2");
+    add("B2", "Robot 2");
     const PlotPane* pane = b.show(variableCurve(QStringLiteral("Robot 1/DIST")));
     QCOMPARE(namesOf(pane), QStringList(QStringLiteral("DIST B1")));
-    QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(PlotSource::distanceAt(10.0)));
-    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R2/DIST")))),
+    QTRY_COMPARE(pane->curves()[0].valueAt(10.0), std::optional(1.0));
+    // Two were called so, one of which is B2 now.
+    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("Robot 2/DIST")))),
              QStringList(QStringLiteral("DIST Robot 2")));
-    // Nobody knows which of two it was.
-    QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("Robot 3/DIST")))),
-             QStringList(QStringLiteral("DIST Robot 3")));
+    // A name is nobody's only because the number is the same.
     QCOMPARE(namesOf(b.show(variableCurve(QStringLiteral("R1/DIST")))),
              QStringList(QStringLiteral("DIST R1")));
   }
@@ -184,6 +281,57 @@ class TestPlotVariables : public QObject {
     QTRY_COMPARE(dock.time()->data()->end, bench.source.store->range()->end);
     dock.feed()->refresh();
     QCOMPARE(shown().front(), QStringLiteral("DIST B2"));
+  }
+
+  void theFirstRobotIsOursAtTheBall() {
+    PlotBench bench;
+    auto frame = std::make_shared<link::MatchFrame>();
+    frame->teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}, {7, "", TeamColor::Red, false}};
+    frame->snapshot.ball = {1.0, 0.0};
+    const auto add = [&](const char* name, const RobotKey& key, double x, const char* behaviour) {
+      link::RobotFrame& robot = frame->robots.emplace_back();
+      robot.name = name;
+      robot.key = key;
+      robot.pose.position = {x, 0.0};
+      robot.behaviour = behaviour;
+      bench.source.fill(name, 10.0);
+    };
+    add("B1", {1, 1, 0}, -3.0, "striker");
+    add("B2", {1, 2, 0}, 0.9, "keeper");
+    add("B3", {1, 3, 0}, 0.5, "supporter");
+    add("R1", {2, 1, 0}, 1.0, "striker");
+    bench.source.shown = frame;
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(800, 300);
+    dock.show();
+    PaneSpec chart;
+    chart.curves << variableCurve(QStringLiteral("first/DIST"));
+    dock.setLayoutSpec({{{QStringLiteral("one"), {chart}}}, 0});
+    dock.feed()->refresh();
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B3")));
+  }
+
+  // Nobody is ours in a simulated match.
+  void theFirstRobotOfAMatchIsOfTheFirstTeam() {
+    PlotBench bench;
+    auto frame = std::make_shared<link::MatchFrame>();
+    for (const auto& [name, team, x] :
+         {std::tuple("B1", 0, -3.0), std::tuple("B2", 0, -1.0), std::tuple("R1", 1, 0.1)}) {
+      link::RobotFrame& robot = frame->robots.emplace_back();
+      robot.name = name;
+      robot.key = {team, name[1] - '0', 0};
+      robot.pose.position = {x, 0.0};
+      bench.source.fill(name, 10.0);
+    }
+    bench.source.shown = frame;
+    PlotsDock dock(bench.context(), nullptr);
+    dock.resize(800, 300);
+    dock.show();
+    PaneSpec chart;
+    chart.curves << variableCurve(QStringLiteral("first/DIST"));
+    dock.setLayoutSpec({{{QStringLiteral("one"), {chart}}}, 0});
+    dock.feed()->refresh();
+    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B2")));
   }
 
   // Received before ours, a guest was the first plot, and stayed it.

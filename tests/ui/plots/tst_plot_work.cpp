@@ -8,6 +8,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSignalSpy>
 #include <QSplitter>
 #include <QTableView>
 #include <QToolButton>
@@ -26,6 +27,7 @@
 #include "marks_model.h"
 #include "marks_panel.h"
 #include "plot_export.h"
+#include "plot_feed.h"
 #include "plot_page.h"
 #include "plot_rig.h"
 #include "plot_source.h"
@@ -42,6 +44,20 @@ class TestPlotWork : public QObject {
   Q_OBJECT
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  /// Curves were drawn again with the next frame only.
+  void curvesWakeUpByTheirRows() {
+    PlotBench bench;
+    PlotFeed feed(&bench.sources, &bench.time);
+    feed.setRunning(true);
+    QTRY_VERIFY(Beat::display().isIdle());
+    QSignalSpy refreshed(&feed, &PlotFeed::refreshed);
+    bench.source.fill("B1", 1.0);
+    emit bench.source.rowsAppended();
+    QVERIFY(!Beat::display().isIdle());
+    QTRY_VERIFY(!refreshed.isEmpty());
+    QVERIFY(feed.find(QStringLiteral("B1/DIST")));
+  }
 
   void aNarrowLegendKeepsItsValue() {
     const auto picture = [](const char* value) {
@@ -270,7 +286,7 @@ class TestPlotWork : public QObject {
     QCOMPARE(pointed.copy(0, top, pointed.width(), pointed.height()),
              clean.copy(0, top, clean.width(), clean.height()));
     const QString path = b.folder.filePath(QStringLiteral("plots.svg"));
-    QVERIFY(savePlotSvg(*b.dock->currentPage(), path));
+    QVERIFY(savePlotPicture(plotSvg(*b.dock->currentPage()), path));
     QFile file(path);
     QVERIFY(file.open(QIODevice::ReadOnly));
     const QString svg = QString::fromUtf8(file.readAll());
@@ -323,23 +339,23 @@ class TestPlotWork : public QObject {
     Bench b;
     QUndoStack* undo = b.dock->undoStack();
     b.time.showMarks(true);
-    const auto marks = b.time.marks();
+    const auto marks = b.time.shown()->marks();
     QCOMPARE(undo->count(), 1);
     auto* window = b.dock->findChild<QToolButton*>(QStringLiteral("plotWindow"));
     menu_entry::called(window->menu()->actions(), QStringLiteral("30 s"))->trigger();
     QCOMPARE(b.time.window(), 30.0);
     QCOMPARE(undo->count(), 2);
     undo->undo();
-    QCOMPARE(b.time.window(), LinkedTime::defaultWindow);
-    QVERIFY(b.time.hasMarks());
+    QCOMPARE(b.time.window(), SourceKind::Simulate.window);
+    QVERIFY(b.time.shown()->hasMarks());
     undo->undo();
-    QVERIFY(!b.time.hasMarks());
+    QVERIFY(!b.time.shown()->hasMarks());
     undo->redo();
-    QCOMPARE(b.time.marks(), marks);
+    QCOMPARE(b.time.shown()->marks(), marks);
     QCOMPARE(undo->count(), 2);
     // A match that is put back drops marks of a time that has not come: nobody's step.
     emit b.source.rewound(0.1);
-    QVERIFY(!b.time.hasMarks());
+    QVERIFY(!b.time.shown()->hasMarks());
     QCOMPARE(undo->count(), 2);
   }
 
@@ -347,7 +363,7 @@ class TestPlotWork : public QObject {
     Bench b;
     class LiveSource : public PlotSource {
      public:
-      SourceKind kind() const override { return SourceKind::Live; }
+      const SourceKind& kind() const override { return SourceKind::Live; }
     } live;
     b.sources.add(&live);
     QCOMPARE(b.time.window(), 15.0);
@@ -361,7 +377,7 @@ class TestPlotWork : public QObject {
     // The next time, too.
     b.dock.reset();
     b.sources.choose(&b.source);
-    LinkedTime time;
+    LinkedTime time(&b.sources);
     PlotsContext context = b.context();
     context.time = &time;
     PlotsDock again(context, nullptr);

@@ -86,7 +86,7 @@ class TestPlots : public QObject {
     const telemetry::GroupId group = *s.source.store->findGroup("B1");
     for (int i = 301; i <= 40 * 60; ++i) s.source.append(group, i / 60.0, 1, 77.0);
     QTRY_COMPARE(s.time.range().end, 40.0);
-    QCOMPARE(s.time.span(), LinkedTime::defaultWindow);
+    QCOMPARE(s.time.span(), SourceKind::Simulate.window);
     QTRY_COMPARE(chart->legend()->entries().value(0).value, QStringLiteral("77.00"));
     // A window by hand; following goes on.
     s.time.setWindow(5.0);
@@ -222,9 +222,10 @@ class TestPlots : public QObject {
     const auto* chart = qobject_cast<ChartPane*>(dock.currentPage()->panes().value(0));
     const auto value = [&] { return chart->legend()->entries().value(0).value; };
     QTRY_COMPARE(value(), QStringLiteral("–"));
-    bench.time.setMoment(3.0);
+    bench.source.goTo(10.0);
+    bench.sources.seek(3.0);
     QTRY_VERIFY(value() != QStringLiteral("–"));
-    bench.time.setMoment(5.0);
+    bench.sources.seek(5.0);
     QTRY_COMPARE(value(), QStringLiteral("–"));
     for (const int columns : {2000, 100}) {  // samples one by one; in columns
       const telemetry::TimeRange range{0.0, 10.0};
@@ -234,8 +235,8 @@ class TestPlots : public QObject {
       QCOMPARE(lines.size(), std::size_t(2));
     }
     // The table of the marks says neither the old value nor "NaN".
-    bench.time.setMark(TimeMark::A, 3.0);
-    bench.time.setMark(TimeMark::B, 5.0);
+    bench.time.shown()->setMark(TimeMark::A, 3.0);
+    bench.time.shown()->setMark(TimeMark::B, 5.0);
     MarksModel model;
     model.setRows({marksRow(chart->curves()[0], 3.0, 5.0)});
     QCOMPARE(model.index(0, MarksModel::AtB).data().toString(), QStringLiteral("–"));
@@ -260,7 +261,8 @@ class TestPlots : public QObject {
     const auto* ruler = s.dock->findChild<TimeRuler*>();
     const auto all = ruler->labels();
     QVERIFY(all.size() > 3);
-    s.time.setMoment(all[1].time + 0.05);
+    s.source.goTo(30.0);
+    s.sources.seek(all[1].time + 0.05);
     const auto rest = ruler->labels();
     QCOMPARE(rest.size(), all.size() - 1);
     QCOMPARE(rest[0].time, all[0].time);
@@ -485,8 +487,8 @@ class TestPlots : public QObject {
     lane.curves << variableCurve("B1/ACTION");
     page.panes << chart << heading << lane;
     s.dock->setLayoutSpec({{page, {"localization", {}}}, 0});
-    s.time.setMark(TimeMark::A, 21.0);
-    s.time.setMark(TimeMark::B, 27.0);
+    s.time.shown()->setMark(TimeMark::A, 21.0);
+    s.time.shown()->setMark(TimeMark::B, 27.0);
     QImage image;
     // Whether each plot has a pixel of its curves' colours, below the legend.
     const auto curvesAreSeen = [&] {

@@ -19,8 +19,7 @@
 #include <ui/processes/processes_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
@@ -36,7 +35,7 @@ class TestProcessesDock : public QObject {
   Q_OBJECT
   const int m_base = testKeyBase();
   std::unique_ptr<MatchController> m_controller;
-  std::unique_ptr<SourceSwitch> m_switch;
+  std::unique_ptr<ShownMoment> m_switch;
   std::unique_ptr<QWidget> m_dock;
   QTableView* m_table = nullptr;
   QStringList m_messages;
@@ -55,7 +54,7 @@ class TestProcessesDock : public QObject {
     options.keyBase = m_base;
     options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
     m_controller = std::make_unique<MatchController>(options);
-    m_switch = std::make_unique<SourceSwitch>(m_controller.get());
+    m_switch = std::make_unique<ShownMoment>(m_controller.get());
     m_dock.reset(makeProcessesDock(m_controller.get(), m_switch.get(), nullptr));
     m_dock->resize(1200, 400);
     m_dock->show();
@@ -69,10 +68,10 @@ class TestProcessesDock : public QObject {
     m_controller->open(scenario);
   }
 
-  link::ProcessSummary process(const char* name) const {
+  link::ProcessStatus process(const char* name) const {
     const FramePtr frame = m_controller->frame();
     if (!frame || frame->robots.empty()) return {};
-    for (const link::ProcessSummary& one : frame->robots[0].processes()) {
+    for (const link::ProcessStatus& one : frame->robots[0].processes()) {
       if (one.name == name) return one;
     }
     return {};
@@ -185,7 +184,7 @@ class TestProcessesDock : public QObject {
     QCOMPARE(process("localization").pid, localization);
     QCOMPARE(process("localization").restarts, 0);
     const auto givesSigns = [this] {
-      const link::ProcessSummary now = process("localization");
+      const link::ProcessStatus now = process("localization");
       const double age =
           std::chrono::duration<double>(std::chrono::steady_clock::now() - now.started).count();
       return age > 2.0 && now.heartbeatAge && *now.heartbeatAge < 0.5 * age;
@@ -254,7 +253,7 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
     const auto names = [this] {
       QStringList all;
-      for (const link::ProcessSummary& one : m_controller->frame()->robots[0].processes()) {
+      for (const link::ProcessStatus& one : m_controller->frame()->robots[0].processes()) {
         all << QString::fromStdString(one.name);
       }
       return all;
@@ -293,8 +292,7 @@ class TestProcessesDock : public QObject {
   void beliefsAreAsGoodAfterLookingBack() {
     open(oneRobot());
     m_controller->setPace(link::RobotsPace::Free);
-    Timeline timeline(m_switch.get());
-    timeline.watch(m_controller.get());
+    ShownMoment& timeline = *m_switch;
     m_controller->setSpeed(10.0);
     QTRY_VERIFY_WITH_TIMEOUT(now() > 30.0, 60'000);
     m_controller->setSpeed(1.0);

@@ -16,8 +16,8 @@ using namespace pitchboard::ui;
 class TestProcessesModel : public QObject {
   Q_OBJECT
 
-  static link::ProcessSummary process(int id, const char* name) {
-    link::ProcessSummary status;
+  static link::ProcessStatus process(int id, const char* name) {
+    link::ProcessStatus status;
     status.id = id;
     status.name = name;
     status.state = link::ProcessState::Running;
@@ -35,11 +35,10 @@ class TestProcessesModel : public QObject {
     link::RobotFrame robot;
     robot.identity = {RobotId{1}, TeamColor::Blue, 1, false};
     frame.robots.push_back(robot);
-    std::vector<link::ProcessSummary> all{process(1, "decision"), process(2, "communication")};
+    std::vector<link::ProcessStatus> all{process(1, "decision"), process(2, "communication")};
     const auto show = [&](std::chrono::seconds later) {
       if (!frame.robots.empty()) {
-        frame.robots[0].processList =
-            std::make_shared<const std::vector<link::ProcessSummary>>(all);
+        frame.robots[0].processList = std::make_shared<const std::vector<link::ProcessStatus>>(all);
       }
       model.update(frame, begin + later);
     };
@@ -78,6 +77,18 @@ class TestProcessesModel : public QObject {
     QCOMPARE(text(1, ProcessesModel::Cpu), QStringLiteral("12.5 %"));
     QCOMPARE(text(1, ProcessesModel::Memory), QStringLiteral("4.2 MB"));
     QCOMPARE(text(1, ProcessesModel::LastOutput), QStringLiteral("two"));
+    // A program that crashed says so while it runs again.
+    all[0].state = link::ProcessState::Running;
+    all[0].deaths = 3;
+    all[0].lastDeath = "exit code 2";
+    all[0].command = {"python3", "/home/robot/chase.py", "--key", "100"};
+    show(std::chrono::seconds(3725));
+    QCOMPARE(text(0, ProcessesModel::State), QStringLiteral("running, crashed 3 times"));
+    QCOMPARE(model.index(0, ProcessesModel::State).data(Qt::ToolTipRole).toString(),
+             QStringLiteral("Last crash: exit code 2"));
+    QCOMPARE(text(0, ProcessesModel::Program), QStringLiteral("chase.py"));
+    QCOMPARE(model.index(0, ProcessesModel::Program).data(Qt::ToolTipRole).toString(),
+             QStringLiteral("python3 /home/robot/chase.py --key 100"));
     all.push_back(process(3, "team"));
     show(std::chrono::seconds(3726));
     QCOMPARE(model.rowCount(), 3);

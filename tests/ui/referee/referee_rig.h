@@ -10,11 +10,11 @@
 #include <QUndoStack>
 
 #include <robotlink/scenario/scenario.h>
+#include <ui/base/referee_text.h>
 #include <ui/referee/referee_panel.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "referee_model.h"
 
@@ -30,7 +30,7 @@ struct RefereeRig {
     link::Scenario scenario = link::loadScenario("match").value();
     scenario.settings.referee->automatic = false;
     for (auto& robot : scenario.robots) robot.behaviour = "none";
-    dock.reset(makeRefereePanel({&controller, &source, &timeline}, nullptr));
+    dock.reset(makeRefereePanel({&controller, &moment}, nullptr));
     dock->resize(416, 900);
     dock->show();
     controller.open(scenario, true);
@@ -38,7 +38,7 @@ struct RefereeRig {
   const link::MatchFrame& frame() const { return *controller.frame(); }
   QString state() const {
     const FramePtr frame = controller.frame();
-    return frame && frame->referee ? QString::fromStdString(frame->referee->state) : QString();
+    return frame && frame->game ? labelText(frame->game->state) : QString();
   }
   QPushButton* button(const char* name) const {
     return dock->findChild<QPushButton*>(QString("referee ") + QString::fromUtf8(name));
@@ -72,8 +72,7 @@ struct RefereeRig {
   QUndoStack* undo() { return controller.edits()->undoStack(); }
 
   MatchController controller;
-  SourceSwitch source{&controller};
-  Timeline timeline{&source};
+  ShownMoment moment{&controller};
   std::unique_ptr<QWidget> dock;
   QStringList errors;
 };

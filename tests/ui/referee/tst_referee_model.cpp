@@ -15,14 +15,30 @@ using namespace pitchboard::ui;
 
 namespace {
 
-link::RefereeView view() {
-  link::RefereeView v;
-  v.state = "PLAYING";
-  v.secondsLeft = 312;
-  v.teams[0] = {12, "blue", 1, 2, {{2, "pushing", 20, 0, 1}, {1, {}, 0}, {4, {}, 0}}};
-  v.teams[1] = {5, "red", 0, 4, {}};
-  v.ourTeam = 12;
-  return v;
+link::MatchFrame received() {
+  link::MatchFrame frame;
+  frame.reception.ourTeam = 12;
+  Game& game = frame.game.emplace();
+  game.state = PlayState::Playing;
+  game.clock = 312;
+  game.teams[0].number = 12;
+  game.teams[0].score = 1;
+  game.teams[0].shirts = {1, 2, 0, 4};
+  game.teams[0].players[1].penalty = PenaltyKind::Pushing;
+  game.teams[0].players[1].ticksLeft = 20;
+  game.teams[0].players[1].yellow = 1;
+  game.teams[1].number = 5;
+  game.teams[1].colour = TeamColor::Red;
+  game.teams[1].shirts = {1, 2, 3, 4};
+  return frame;
+}
+
+/// Shows the first team, with this reply of a robot.
+void show(RefereeModel& model, link::MatchFrame frame,
+          const std::optional<link::RobotReplyView>& reply = {}) {
+  if (reply) frame.reception.replies = {*reply};
+  const GameTeam& team = frame.game->teams[0];
+  model.update(frame, team, team.onField());
 }
 
 }  // namespace
@@ -32,30 +48,36 @@ class TestRefereeModel : public QObject {
 
  private slots:
   void words() {
-    link::RefereeView v = view();
-    QCOMPARE(refereeStateText(v), QStringLiteral("PLAYING 05:12, first half"));
-    QVERIFY(refereeSetPlayText(v).isEmpty());
-    QVERIFY(refereeTruthText(v).isEmpty());
-    v.setPlay = "corner kick";
-    v.performingTeam = 5;
-    v.setPlayStep = "prepare";
-    v.secondaryTime = 23;
-    v.countdown = "ready";
-    QCOMPARE(refereeSetPlayText(v), QStringLiteral("corner kick for RED, prepare, ready in 23 s"));
-    v = view();
-    v.kickOffTeam = 12;
-    v.secondaryTime = 8;
-    v.countdown = "ball free";
-    QCOMPARE(refereeSetPlayText(v), QStringLiteral("kick-off for BLUE, ball free in 8 s"));
-    v.truth.emplace();
-    v.truth->state = "PLAYING";
-    v.truth->secondsLeft = -7;
-    v.truth->scores = {2, 0};
-    QCOMPARE(refereeTruthText(v), QStringLiteral("True state: PLAYING −00:07, 2 : 0, 0.0 s ago"));
-    QCOMPARE(refereeTeamText(v.teams[0], v.ourTeam),
+    link::MatchFrame frame = received();
+    Game& game = *frame.game;
+    game.kickOff = Game::noTeam;
+    QCOMPARE(refereeStateText(frame), QStringLiteral("PLAYING 05:12, first half"));
+    QVERIFY(refereeSetPlayText(frame).isEmpty());
+    QVERIFY(refereeTruthText(frame).isEmpty());
+    game.restart.step = Restart::Step::Preparing;
+    game.restart.kind = SetPlay::CornerKick;
+    game.restart.team = 1;
+    game.countdown.ticks = 23;
+    QCOMPARE(refereeSetPlayText(frame),
+             QStringLiteral("corner kick for RED, prepare, ready in 23 s"));
+    game.kickOff = 0;
+    game.restart = {};
+    game.restart.step = Restart::Step::Executed;
+    game.countdown.ticks = 8;
+    QCOMPARE(refereeSetPlayText(frame), QStringLiteral("kick-off for BLUE, ball free in 8 s"));
+    Game& truth = frame.reception.truth.emplace();
+    truth.state = PlayState::Playing;
+    truth.clock = -7;
+    truth.teams[0].score = 2;
+    QCOMPARE(refereeTruthText(frame),
+             QStringLiteral("True state: PLAYING −00:07, 2 : 0, 0.0 s ago"));
+    QCOMPARE(refereeTeamText(frame, game.teams[0]),
              QStringLiteral("Team 12 (blue), ours: 1 goal, 2 players left"));
-    QCOMPARE(refereeTeamText(v.teams[1], v.ourTeam),
+    QCOMPARE(refereeTeamText(frame, game.teams[1]),
              QStringLiteral("Team 5 (red): 0 goals, 4 players left"));
+    game.teams[1].messageBudget = 11873;
+    QCOMPARE(refereeTeamText(frame, game.teams[1]),
+             QStringLiteral("Team 5 (red): 0 goals, 4 players left, message budget 11873"));
   }
 
   void whoSitsOutStandsFirst() {
@@ -64,7 +86,7 @@ class TestRefereeModel : public QObject {
     const auto cell = [&model](int row, RefereeModel::Column column) {
       return model.index(row, column).data().toString();
     };
-    model.update(view().teams[0], {});
+    show(model, received());
     QCOMPARE(model.rowCount(), 3);
     QCOMPARE(cell(0, RefereeModel::Player), QStringLiteral("2"));
     QCOMPARE(cell(0, RefereeModel::State), QStringLiteral("pushing"));
@@ -77,34 +99,35 @@ class TestRefereeModel : public QObject {
     reply.team = 12;
     reply.player = 1;
     reply.address = "10.0.0.1";
-    model.update(view().teams[0], {reply});
+    show(model, received(), reply);
     QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("good"));
     reply.fallen = true;
-    model.update(view().teams[0], {reply});
+    show(model, received(), reply);
     QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("fallen"));
     reply.age = 3.0;
-    model.update(view().teams[0], {reply});
+    show(model, received(), reply);
     QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("late"));
     reply.age = 4.5;
-    model.update(view().teams[0], {reply});
+    show(model, received(), reply);
     QCOMPARE(cell(1, RefereeModel::Robot), QStringLiteral("offline"));
     // Another team's robot of that number.
     reply.team = 5;
-    model.update(view().teams[0], {reply});
+    show(model, received(), reply);
     QVERIFY(cell(1, RefereeModel::Robot).isEmpty());
     // Beside controls rows keep their places, and cards stand with the state.
     model.setCompact(true);
-    model.update(view().teams[0], {});
+    show(model, received());
     QCOMPARE(cell(0, RefereeModel::Player), QStringLiteral("1"));
     QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pushing 20 s · yellow"));
     // In few words, so that the time fits; the tooltip has all.
-    link::RefereeTeamView other = view().teams[0];
-    other.players[0].penalty = "pickup or incapable";
-    model.update(other, {});
+    link::MatchFrame other = received();
+    other.game->teams[0].players[1].penalty = PenaltyKind::Incapable;
+    show(model, other);
     QCOMPARE(cell(1, RefereeModel::State), QStringLiteral("pickup 20 s · yellow"));
     QCOMPARE(model.index(1, RefereeModel::State).data(Qt::ToolTipRole).toString(),
              QStringLiteral("pickup or incapable · yellow"));
-    model.update({}, {});
+    other.game->teams[0].shirts = {};
+    show(model, other);
     QCOMPARE(model.rowCount(), 0);
   }
 };

@@ -18,7 +18,7 @@
 #include <ui/sources/match_memory.h>
 #include <ui/sources/referee_calls.h>
 #include <ui/sources/replay_controller.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "next_steps.h"
 #include "referee_rig.h"
@@ -33,7 +33,7 @@ namespace {
 
 void sameScoreboard(const link::MatchFrame& now, const link::MatchFrame& past) {
   QCOMPARE(past.origin, link::FrameOrigin::Recorded);
-  QVERIFY(past.referee.has_value());
+  QVERIFY(past.game.has_value());
   const ScoreboardState was = scoreboardOf(now), seen = scoreboardOf(past);
   QVERIFY(!was.penalties.isEmpty());
   QCOMPARE(seen.penalties, was.penalties);
@@ -41,13 +41,14 @@ void sameScoreboard(const link::MatchFrame& now, const link::MatchFrame& past) {
   QCOMPARE(seen.left, 0);
   QCOMPARE(seen.right, 1);
   QCOMPARE(seen.leftName, was.leftName);
-  QCOMPARE(past.referee->state, now.referee->state);
-  QCOMPARE(past.referee->kickOffTeam, now.referee->kickOffTeam);
-  QCOMPARE(past.referee->secondaryTime, now.referee->secondaryTime);
-  QCOMPARE(past.referee->version, now.referee->version);
-  for (std::size_t side = 0; side < 2; ++side) {
-    QCOMPARE(past.referee->teams[side].players.size(), now.referee->teams[side].players.size());
-    QCOMPARE(past.referee->teams[side].playersLeft, now.referee->teams[side].playersLeft);
+  QCOMPARE(refereeStateText(past), refereeStateText(now));
+  QCOMPARE(refereeSetPlayText(past), refereeSetPlayText(now));
+  QCOMPARE(past.game->kickOff, now.game->kickOff);
+  QCOMPARE(past.rules->packetVersion, now.rules->packetVersion);
+  for (const bool right : {false, true}) {
+    QCOMPARE(refereeTeamText(past, past.game->teamAt(right)),
+             refereeTeamText(now, now.game->teamAt(right)));
+    QCOMPARE(past.game->teamAt(right).onField(), now.game->teamAt(right).onField());
   }
 }
 
@@ -77,8 +78,8 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
     rig.reach("PLAYING");
     QTRY_COMPARE(rig.undo()->count(), 3);
-    callReferee(rig.controller.edits(),
-                {.kind = sim::CallKind::State, .state = sim::PlayState::Set}, "SET");
+    callReferee(rig.controller.edits(), {.kind = sim::CallKind::State, .state = PlayState::Set},
+                "SET");
     QTRY_COMPARE(rig.errors.size(), 1);
     QVERIFY2(rig.errors[0].contains("from PLAYING to SET"), qPrintable(rig.errors[0]));
     QCOMPARE(rig.state(), QString("PLAYING"));
@@ -103,7 +104,7 @@ class TestRefereePanel : public QObject {
     rig.reach("PLAYING");
     rig.controller.stepOnce();
     const auto count = [&rig](link::MatchEventKind kind) {
-      return std::ranges::count(rig.timeline.events()->events(), kind, &link::MatchEvent::kind);
+      return std::ranges::count(rig.moment.events()->events(), kind, &link::MatchEvent::kind);
     };
     QTRY_COMPARE(count(link::MatchEventKind::GameState), 3);
     rig.press("Goal left");
@@ -153,7 +154,6 @@ class TestRefereePanel : public QObject {
     RefereeRig rig;
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
     using sim::CallKind;
-    using sim::PlayState;
     const auto call = [&rig](const sim::RefereeCall& made) {
       callReferee(rig.controller.edits(), made, "call");
     };
@@ -164,7 +164,7 @@ class TestRefereePanel : public QObject {
     }
     if (steps == 4) call({.kind = CallKind::Stop});
     if (steps == 5) {
-      call({.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::CornerKick});
+      call({.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::CornerKick});
     }
     if (steps == 6) call({.kind = CallKind::State, .state = PlayState::Finished});
     QTRY_COMPARE(rig.state(), state);
@@ -189,12 +189,11 @@ class TestRefereePanel : public QObject {
       is(qPrintable("Kick-off " + at), {.kind = CallKind::KickOff, .team = team});
       is(qPrintable("Timeout " + at), {.kind = CallKind::Timeout, .team = team});
     }
-    is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = sim::SetPlay::DirectFreeKick});
+    is("Give", {.kind = CallKind::SetPlay, .team = 0, .setPlay = SetPlay::DirectFreeKick});
     const RobotId robot = rig.frame().robots[1].slot();
-    is("Penalise",
-       {.kind = CallKind::Penalise, .robot = robot, .penalty = sim::PenaltyKind::Incapable});
+    is("Penalise", {.kind = CallKind::Penalise, .robot = robot, .penalty = PenaltyKind::Incapable});
     is("Pardon", {.kind = CallKind::Pardon, .robot = robot});
-    const auto offered = nextSteps(*rig.frame().refereedGame);
+    const auto offered = nextSteps(*rig.frame().game, *rig.frame().rules);
     QVERIFY(!offered.empty() && offered.size() <= 3);
     for (const NextStep& step : offered) {
       QPushButton* one = rig.dock->findChild<QPushButton*>("referee " + step.text);
@@ -215,7 +214,7 @@ class TestRefereePanel : public QObject {
     };
     const auto* state = rig.dock->findChild<QLabel*>("refereeState");
     QVERIFY(state->fontMetrics().height() >= 1.5 * rig.dock->fontMetrics().height());
-    const auto offered = nextSteps(*rig.frame().refereedGame);
+    const auto offered = nextSteps(*rig.frame().game, *rig.frame().rules);
     QVERIFY(offered.size() >= 2 && offered.size() <= 3);
     const auto step = [&] {
       return rig.dock->findChild<QPushButton*>("referee " + offered[0].text);
@@ -282,7 +281,7 @@ class TestRefereePanel : public QObject {
     RefereeRig rig;
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
     rig.reach("PLAYING");
-    rig.controller.edits()->moveBall({}, {2.0, 1.0});
+    rig.controller.edits()->moveBall({2.0, 1.0});
     rig.press("Goal left");
     QTRY_COMPARE(rig.state(), QString("READY"));
     QTRY_COMPARE(scoreboardOf(rig.frame()).left, 1);
@@ -294,16 +293,42 @@ class TestRefereePanel : public QObject {
     QCOMPARE(rig.state(), QString("PLAYING"));
   }
 
+  void theScoreboardTellsThePartOfTheGame() {
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    link::MatchFrame frame = rig.frame();
+    QCOMPARE(scoreboardOf(frame).period, QString("1st"));
+    Game& game = *frame.game;
+    game.state = PlayState::Playing;
+    game.half = 2;
+    QCOMPARE(scoreboardOf(frame).period, QString("2nd"));
+    game.phase = GamePhase::ExtraTime;
+    QCOMPARE(scoreboardOf(frame).period, QString("ET 2"));
+    game.phase = GamePhase::ShootOut;
+    QCOMPARE(scoreboardOf(frame).period, QString("PEN"));
+    // Beyond an hour.
+    game.clock = static_cast<int>((3600 + 12 * 60 + 5) * game.tickRate);
+    QCOMPARE(scoreboardOf(frame).clock, QString("72:05"));
+    // Where there is little room, the set play stays.
+    game.restart.kind = SetPlay::DirectFreeKick;
+    game.restart.step = Restart::Step::Placing;
+    game.restart.team = 0;
+    game.teams[0].number = 12;
+    const ScoreboardState board = scoreboardOf(frame);
+    const QFontMetricsF metrics(themeFont(TypeRole::Secondary, true));
+    const double room = metrics.horizontalAdvance("direct free kick 12") + 1;
+    QCOMPARE(stateText(board, metrics, room), QString("direct free kick 12"));
+    QVERIFY(stateText(board, metrics, 1000).startsWith("PLAYING · direct free kick 12"));
+  }
+
   void theScoreboardShowsGoalsByHalf() {
     RefereeRig rig;
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
     link::MatchFrame frame = rig.frame();
     QVERIFY(!scoreboardOf(frame).tip.contains("By half"));
-    const auto later = std::make_shared<link::RefereedGame>(*frame.refereedGame);
-    later->game.half = 2;
-    later->game.teams[0].byHalf = {1, 2, 0, 0};
-    later->game.teams[1].byHalf = {0, 1, 0, 0};
-    frame.refereedGame = later;
+    frame.game->half = 2;
+    frame.game->teams[0].byHalf = {1, 2, 0, 0};
+    frame.game->teams[1].byHalf = {0, 1, 0, 0};
     QVERIFY(scoreboardOf(frame).tip.endsWith("By half: 1 : 0, 2 : 1"));
   }
 
@@ -313,7 +338,7 @@ class TestRefereePanel : public QObject {
     rig.choose(1);
     rig.press("Penalise");
     QTRY_COMPARE(rig.shown(1), QString("pickup 30 s"));
-    QCOMPARE(scoreboardOf(rig.frame()).penalties, QString("B2 30"));
+    QCOMPARE(scoreboardOf(rig.frame()).penalties, QString("Penalties: B2 30"));
     QTRY_COMPARE(rig.undo()->count(), 1);
     rig.undo()->undo();
     QTRY_COMPARE(rig.shown(1), QString("plays"));
@@ -364,9 +389,7 @@ class TestRefereePanel : public QObject {
     const auto press = [&rig](Qt::Key key) {
       QTest::keyClick(rig.dock.get(), key, Qt::ControlModifier | Qt::AltModifier);
     };
-    const auto hasText = [&rig](const char* setPlay) {
-      return rig.frame().referee->setPlay == setPlay;
-    };
+    const auto isGiven = [&rig](SetPlay play) { return rig.frame().game->setPlay() == play; };
     press(Qt::Key_3);  // blue kicks off
     press(Qt::Key_R);
     QTRY_COMPARE(rig.state(), QString("READY"));
@@ -375,13 +398,13 @@ class TestRefereePanel : public QObject {
     press(Qt::Key_P);
     QTRY_COMPARE(rig.state(), QString("PLAYING"));
     press(Qt::Key_X);
-    QTRY_VERIFY(rig.frame().referee->stopped);
+    QTRY_VERIFY(rig.frame().game->stopped);
     press(Qt::Key_G);
-    QTRY_VERIFY(!rig.frame().referee->stopped);
+    QTRY_VERIFY(!rig.frame().game->stopped);
     press(Qt::Key_K);
-    QTRY_VERIFY(hasText("direct free kick"));
+    QTRY_VERIFY(isGiven(SetPlay::DirectFreeKick));
     for (int step = 0; step < 3; ++step) press(Qt::Key_N);
-    QTRY_VERIFY(hasText(""));
+    QTRY_VERIFY(isGiven(SetPlay::None));
     press(Qt::Key_D);
     QTRY_COMPARE(rig.state(), QString("READY"));
     press(Qt::Key_S);
@@ -396,7 +419,7 @@ class TestRefereePanel : public QObject {
     QTRY_COMPARE(rig.state(), QString("FINISHED"));
     press(Qt::Key_I);
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
-    QVERIFY(!rig.frame().referee->firstHalf);
+    QVERIFY(rig.frame().game->half == 2);
     QVERIFY2(rig.errors.isEmpty(), qPrintable(rig.errors.join('\n')));
   }
 
@@ -450,12 +473,12 @@ class TestRefereePanel : public QObject {
     const QAbstractItemModelTester tester(log,
                                           QAbstractItemModelTester::FailureReportingMode::QtTest);
     QTRY_COMPARE(log->rowCount(), 2);
-    rig.timeline.seek(0.5);
+    rig.moment.seek(0.5);
     QCOMPARE(log->rowCount(), 1);
-    rig.timeline.seek(1.5);
+    rig.moment.seek(1.5);
     QCOMPARE(log->rowCount(), 2);
-    rig.timeline.seek(0.5);
-    rig.timeline.goLive();
+    rig.moment.seek(0.5);
+    rig.moment.goLive();
     QCOMPARE(log->rowCount(), 2);
   }
 };

@@ -8,6 +8,7 @@
 #include <QUndoStack>
 #include <QtTest>
 
+#include <simcore/rules/referee.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -19,6 +20,15 @@ namespace tst_referee_rules {
 using namespace pitchboard;
 using namespace pitchboard::ui;
 using referee_rig::RefereeRig;
+
+namespace {
+
+/// Empty: no referee.
+std::string ruleSet(const link::MatchFrame& frame) {
+  return frame.rules ? frame.rules->name : std::string();
+}
+
+}  // namespace
 
 class TestRefereeRules : public QObject {
   Q_OBJECT
@@ -56,11 +66,11 @@ class TestRefereeRules : public QObject {
     for (QPushButton* load : rig.dock->findChildren<QPushButton*>()) {
       if (load->text() == "Right attacks") QTest::mouseClick(load, Qt::LeftButton);
     }
-    QTRY_COMPARE(rig.frame().referee->setPlay, std::string("corner kick"));
-    QCOMPARE(rig.frame().referee->performingTeam, rig.frame().referee->teams[1].number);
+    QTRY_COMPARE(rig.frame().game->setPlay(), SetPlay::CornerKick);
+    QCOMPARE(rig.frame().game->setPlayTeam(), rig.frame().game->swapped ? 0 : 1);
     QTRY_COMPARE(rig.undo()->count(), before + 1);
     rig.undo()->undo();
-    QTRY_COMPARE(rig.frame().referee->setPlay, std::string());
+    QTRY_COMPARE(rig.frame().game->setPlay(), SetPlay::None);
     QVERIFY(rig.errors.isEmpty());
   }
 
@@ -92,6 +102,26 @@ class TestRefereeRules : public QObject {
     }
   }
 
+  // The rules of 2021 give a goal kick where halfway line and touch line meet.
+  void aGoalKickIsWhereTheRulesPutIt() {
+    RefereeRig rig;
+    QTRY_COMPARE(rig.state(), QString("INITIAL"));
+    rig.openFold();
+    auto* formation = rig.dock->findChild<QComboBox*>("refereeFormation");
+    formation->setCurrentIndex(formation->findText("Goal kick"));
+    for (QPushButton* load : rig.dock->findChildren<QPushButton*>()) {
+      if (load->text() == "Left attacks") QTest::mouseClick(load, Qt::LeftButton);
+    }
+    QTRY_COMPARE(rig.undo()->count(), 1);
+    const sim::FieldSpec& field = rig.frame().settings->field;
+    const Point placed =
+        sim::setPlayPlace(SetPlay::GoalKick, 1.0, {field.halfLength(), field.halfWidth()},
+                          rig.frame().rules->style, field);
+    QTRY_COMPARE(rig.frame().snapshot.ball.x, placed.x);
+    QCOMPARE(rig.frame().rules->style, sim::RefereeStyle::Humanoid2021);
+    QCOMPARE(placed.x, 0.0);
+  }
+
   void whoIsPenalisedIsLeftOutOfAFormation() {
     RefereeRig rig;
     QTRY_COMPARE(rig.state(), QString("INITIAL"));
@@ -116,13 +146,13 @@ class TestRefereeRules : public QObject {
     QTRY_COMPARE(rules->currentData().toString(), QString("humanoid-2021"));
     rules->setCurrentIndex(0);
     emit rules->activated(0);
-    QTRY_VERIFY(!rig.frame().referee);
+    QTRY_VERIFY(!rig.frame().game);
     QTRY_VERIFY(!rig.button("READY")->isVisible());
     QVERIFY(rules->isVisible());  // without a referee the fold is open
     rules->setCurrentIndex(3);
     emit rules->activated(3);
-    QTRY_VERIFY(rig.frame().referee.has_value());
-    QTRY_COMPARE(rig.frame().refereeRules, std::string("humanoid-soccer-2026"));
+    QTRY_VERIFY(rig.frame().game.has_value());
+    QTRY_COMPARE(ruleSet(rig.frame()), std::string("humanoid-soccer-2026"));
   }
 
   void otherRulesAreUndone_data() {
@@ -155,23 +185,23 @@ class TestRefereeRules : public QObject {
     const std::string name = box->itemData(rules).toString().toStdString();
     box->setCurrentIndex(rules);
     emit box->activated(rules);
-    QTRY_COMPARE(rig.frame().refereeRules, rules == 0 ? std::string() : name);
+    QTRY_COMPARE(ruleSet(rig.frame()), rules == 0 ? std::string() : name);
     if (rules != 0) QCOMPARE(scoreboardOf(rig.frame()).right, 0);
     QTRY_COMPARE(stack->count(), steps + 1);
     const auto reported = [&rig] {
-      return std::ranges::count_if(rig.timeline.events()->events(), [](const auto& event) {
+      return std::ranges::count_if(rig.moment.events()->events(), [](const auto& event) {
         return event.kind == link::MatchEventKind::SettingChanged && event.detail == "rules";
       });
     };
     QTRY_COMPARE(reported(), 1);
     stack->undo();
     QTRY_COMPARE(reported(), 0);
-    QTRY_COMPARE(rig.frame().refereeRules, std::string("humanoid-2021"));
+    QTRY_COMPARE(ruleSet(rig.frame()), std::string("humanoid-2021"));
     QCOMPARE(rig.controller.stateHash(), hash);
     QCOMPARE(scoreboardOf(rig.frame()).clock, scoreboardOf(before).clock);
     QCOMPARE(scoreboardOf(rig.frame()).penalties, scoreboardOf(before).penalties);
     stack->redo();
-    QTRY_COMPARE(rig.frame().refereeRules, rules == 0 ? std::string() : name);
+    QTRY_COMPARE(ruleSet(rig.frame()), rules == 0 ? std::string() : name);
     stack->undo();
     QTRY_COMPARE(rig.controller.stateHash(), hash);
     // What was done before it can still be undone.
@@ -187,14 +217,14 @@ class TestRefereeRules : public QObject {
     QVERIFY(!automatic->isChecked());
     QTRY_VERIFY(automatic->isEnabled());
     automatic->click();
-    QTRY_VERIFY(rig.frame().refereedGame->rules.automatic);
+    QTRY_VERIFY(rig.frame().rules->automatic);
     QTRY_COMPARE(rig.undo()->count(), 1);
-    const auto& events = rig.timeline.events()->events();
+    const auto& events = rig.moment.events()->events();
     QTRY_COMPARE(
         std::ranges::count(events, link::MatchEventKind::SettingChanged, &link::MatchEvent::kind),
         1);
     rig.undo()->undo();
-    QTRY_VERIFY(!rig.frame().refereedGame->rules.automatic);
+    QTRY_VERIFY(!rig.frame().rules->automatic);
     QTRY_VERIFY(!automatic->isChecked());
   }
 };

@@ -24,7 +24,7 @@ link::MatchFrame frameOf(std::uint64_t serial) {
   robot.name = robot.identity.name();
   robot.action = 8;
   robot.decided = 8;
-  robot.battery = telemetry::batteryAt(18.9, telemetry::usualBattery);
+  robot.battery = telemetry::batteryAt(18.9, telemetry::defaultBattery);
   for (const std::size_t lamp : {1U, 3U, 4U}) robot.lamps[lamp].state = LampState::Working;
   frame.robots.push_back(robot);
   return frame;
@@ -48,21 +48,49 @@ class TestCardState : public QObject {
     QCOMPARE(cards[0].lamps[2].state, LampState::Unknown);
   }
 
-  void adviceStandsBehindTheAction() {
+  /// Both were "4 Ro…".
+  void twoRobotsOfOneNumberLookDifferentWhenCollapsed() {
     link::MatchFrame frame = frameOf(1);
-    auto advice = std::make_shared<link::AdviceView>();
-    advice->isThinking = true;
-    advice->choice = link::AdviceKind::StrongKick;
-    advice->value = 0.08;
-    advice->gain = 0.05;
-    advice->rollouts = 96;
-    frame.robots[0].advice = advice;
-    const CardState card = CardTracker().update(frame, 0)[0];
-    QCOMPARE(card.action, QStringLiteral("walk forward, slow → strong kick +0.08"));
-    QVERIFY(card.detailTip.contains(QStringLiteral("+0.05 more than its behaviour")));
-    QVERIFY(card.detailTip.contains(QStringLiteral("96 rollouts")));
-    advice->isThinking = false;  // old advice is not shown
-    QCOMPARE(CardTracker().update(frame, 0)[0].action, QStringLiteral("walk forward, slow"));
+    link::RobotFrame& first = frame.robots[0];
+    first.link.emplace().sender.address.value = 0x0a000017;
+    first.key = {0, 2, 0};
+    first.name = "Robot 2";
+    link::RobotFrame second = first;
+    second.uid = {2};
+    second.key.sender = 1;
+    second.name = "Robot 2 (2)";
+    second.link->sender.address.value = 0x0a000018;
+    frame.robots.push_back(second);
+    const auto states = CardTracker().update(frame, 0);
+    QCOMPARE(states[0].apart, QStringLiteral(".23"));
+    QCOMPARE(states[1].apart, QStringLiteral("(2)"));
+    RobotCard card;
+    card.resize(240, 40);
+    card.setCollapsed(true);
+    const auto head = [&card](CardState state) {
+      // Whatever else they differ in is not seen on a collapsed card.
+      state.id = {};
+      state.address.clear();
+      card.setState(state);
+      return card.grab().toImage();
+    };
+    CardState alike = states[1];
+    alike.apart.clear();
+    CardState other = states[0];
+    other.apart.clear();
+    QCOMPARE(head(alike), head(other));  // their names have no room
+    QVERIFY(head(states[0]) != head(states[1]));
+    frame.robots[1].identity.number = 3;
+    QVERIFY(CardTracker().update(frame, 0)[0].apart.isEmpty());
+  }
+
+  /// A past moment is not "paused": the match may go on behind it.
+  void thePastHasNoAge() {
+    link::MatchFrame frame = frameOf(1);
+    frame.paused = true;
+    QCOMPARE(CardTracker().update(frame, 0)[0].detail, QStringLiteral("paused · 0.0 m"));
+    frame.origin = link::FrameOrigin::Recorded;
+    QCOMPARE(CardTracker().update(frame, 0)[0].detail, QStringLiteral("0.0 m"));
   }
 
   void aProcessThatStopsShowsSinceWhen() {
@@ -74,11 +102,11 @@ class TestCardState : public QObject {
     QCOMPARE(cards[0].tag, QStringLiteral("D no reply 8 s"));
     QCOMPARE(cards[0].tagKind, TagKind::Error);
     // Nobody wonders for how long what somebody has stopped is silent.
-    link::ProcessSummary decision;
+    link::ProcessStatus decision;
     decision.name = "decision";
     decision.state = link::ProcessState::Stopped;
     frame.robots[0].processList =
-        std::make_shared<const std::vector<link::ProcessSummary>>(1, decision);
+        std::make_shared<const std::vector<link::ProcessStatus>>(1, decision);
     const CardState stopped = tracker.update(frame, 100)[0];
     QCOMPARE(stopped.tag, QStringLiteral("D stopped"));
     QCOMPARE(stopped.tagKind, TagKind::Warning);
@@ -86,7 +114,7 @@ class TestCardState : public QObject {
 
   void aPenaltyHasTheSameTextEverywhere() {
     link::MatchFrame frame = frameOf(1);
-    frame.robots[0].penalty = link::Penalty{"pickup or incapable", 20};
+    frame.robots[0].penalty = link::Penalty{PenaltyKind::Incapable, 20};
     QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
     frame.robots[0].link.emplace();
     QCOMPARE(CardTracker().update(frame, 0)[0].tag, QStringLiteral("pickup 20 s"));
@@ -95,17 +123,16 @@ class TestCardState : public QObject {
   void aProgramThatKeepsRealTimeIsNamedWithTheReason() {
     CardTracker tracker;
     link::MatchFrame frame = frameOf(1);
-    link::ProcessSummary process;
+    link::ProcessStatus process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
     process.isTeamProgram = true;
-    process.whyRealTime =
-        "the clock of the match cannot be loaded into it (static or setuid program)";
+    process.clock = link::ProcessClock::RealNotLoaded;
     for (const double speed : {8.0, 1.0, 0.1}) {
       process.speed = speed;
       process.achieved = speed > 1.0 ? 1.0 : 0.0;
       frame.robots[0].processList =
-          std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+          std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
       const CardState card = tracker.update(frame, 0)[0];
       QCOMPARE(card.tag, QStringLiteral("decision keeps real time"));
       QCOMPARE(card.tagTip,
@@ -118,31 +145,67 @@ class TestCardState : public QObject {
   // At ×1 it is where the match is; slower than that, it is ahead of it.
   void aProgramThatIsToKeepRealTimeIsNamedAtOtherSpeeds() {
     link::MatchFrame frame = frameOf(1);
-    link::ProcessSummary process;
+    link::ProcessStatus process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
     process.isTeamProgram = true;
-    process.whyRealTime = link::whyRealTime(link::ProcessClock::Real);
+    process.clock = link::ProcessClock::Real;
     for (const double speed : {8.0, 1.0, 0.1}) {
       process.speed = speed;
       frame.robots[0].processList =
-          std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+          std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
       QCOMPARE(CardTracker().update(frame, 0)[0].tag,
                speed == 1.0 ? QString() : QStringLiteral("decision keeps real time"));
     }
   }
 
+  void aTeamProgramAndItsCrashesAreNamed() {
+    link::MatchFrame frame = frameOf(1);
+    link::ProcessStatus process;
+    process.id = 7;
+    process.name = "decision";
+    process.command = {"/usr/bin/python3", "-u", "/home/robot/chase.py", "--key", "100"};
+    process.state = link::ProcessState::Running;
+    process.isTeamProgram = true;
+    process.clock = link::ProcessClock::Match;
+    const auto card = [&](CardTracker& tracker) {
+      frame.robots[0].processList =
+          std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
+      return tracker.update(frame, 0)[0];
+    };
+    CardTracker tracker;
+    QVERIFY2(card(tracker).subtitle.endsWith("chase.py"), qPrintable(card(tracker).subtitle));
+    QCOMPARE(card(tracker).tag, QString());
+    // It runs again at once, and the card still says what happened.
+    process.deaths = 3;
+    process.lastDeath = "exit code 1; last output: KeyError: 'ball'";
+    QCOMPARE(card(tracker).tag, QStringLiteral("chase.py crashed 3 times"));
+    QCOMPARE(card(tracker).tagTip,
+             QStringLiteral("R2 decision (chase.py) crashed 3 times, the last time with exit code "
+                            "1; last output: KeyError: 'ball'. Click the card to hide this."));
+    QCOMPARE(card(tracker).tagKind, TagKind::Error);
+    // Until somebody looked.
+    tracker.looked(frame.robots[0].uid);
+    QCOMPARE(card(tracker).tag, QString());
+    process.deaths = 4;
+    QCOMPARE(card(tracker).tag, QStringLiteral("chase.py crashed 4 times"));
+    // Programs without an interpreter are files themselves.
+    process.command = {"../bin/walk", "a.py"};
+    QVERIFY(card(tracker).subtitle.endsWith("walk"));
+  }
+
   void aProgramThatCannotKeepUpShowsItsMissedCycles() {
     link::MatchFrame frame = frameOf(1);
-    link::ProcessSummary process;
+    link::ProcessStatus process;
     process.name = "decision";
     process.state = link::ProcessState::Running;
     process.isTeamProgram = true;
+    process.clock = link::ProcessClock::Match;
     process.speed = 8.0;
     process.achieved = 3.1;
     process.missedCycles = 12;
     frame.robots[0].processList =
-        std::make_shared<const std::vector<link::ProcessSummary>>(1, process);
+        std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
     const CardState card = CardTracker().update(frame, 0)[0];
     QCOMPARE(card.tag, QStringLiteral("decision reaches \u00d73.1"));
     QCOMPARE(card.tagTip,
@@ -167,7 +230,7 @@ class TestCardState : public QObject {
     QFETCH(int, unknown);
     QFETCH(QString, tag);
     link::MatchFrame frame = frameOf(1);
-    frame.robots[0].battery = telemetry::batteryAt(voltage / 10.0, telemetry::usualBattery);
+    frame.robots[0].battery = telemetry::batteryAt(voltage / 10.0, telemetry::defaultBattery);
     frame.robots[0].fallen = fallen;
     if (unknown != 0) {
       frame.robots[0].decided = unknown;
@@ -183,7 +246,7 @@ class TestCardState : public QObject {
     CardState silent = base;
     silent.lamps[3] = {LampState::NotResponding, 8};
     CardState low = base;
-    low.battery = telemetry::batteryAt(15.1, telemetry::usualBattery);
+    low.battery = telemetry::batteryAt(15.1, telemetry::defaultBattery);
     CardState tagged = base;
     tagged.tag = QStringLiteral("fallen");
     tagged.tagKind = TagKind::Warning;
@@ -210,7 +273,7 @@ class TestCardState : public QObject {
   /// However narrow the card: words are cut, not how long it has been.
   void aLongNameLeavesTheVoltsAlone() {
     CardState state = CardTracker().update(frameOf(1), 0)[0];
-    state.battery = telemetry::batteryAt(18.9, telemetry::usualBattery);
+    state.battery = telemetry::batteryAt(18.9, telemetry::defaultBattery);
     const auto volts = [&state](const QString& name, int width) {
       state.name = name;
       RobotCard card;

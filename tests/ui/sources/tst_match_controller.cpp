@@ -56,6 +56,35 @@ class TestMatchController : public QObject {
     QVERIFY(!c.isPaused());
   }
 
+  /// Two play: what the referee knows nothing of would stand on the field as an obstacle.
+  void aThirdTeamIsRefusedWhereThereIsAReferee() {
+    MatchController c(inside());
+    link::Scenario refereed = match();
+    refereed.settings.referee.emplace();
+    c.open(refereed, true);
+    QTRY_VERIFY(c.frame());
+    const std::size_t robots = count(c);
+    QSignalSpy refused(&c, &MatchController::errorOccurred);
+    c.edits()->addRobot(TeamColor::Black, {{1.0, 1.0}, 0.0});
+    QTRY_COMPARE(refused.size(), 1);
+    const QString text = refused.takeFirst().at(0).toString();
+    QVERIFY2(text.contains(QStringLiteral("between blue and red")), qPrintable(text));
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 0);
+    c.edits()->setTeam({c.frame()->robots[0].identity.id}, TeamColor::Black);
+    QTRY_COMPARE(refused.size(), 1);
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 0);
+    c.settle();
+    QCOMPARE(count(c), robots);
+    QVERIFY(c.frame()->robots[0].identity.team != TeamColor::Black);
+    // Without a referee anybody may stand there, of the kind that the others are.
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    c.edits()->addRobot(TeamColor::Black, {{1.0, 1.0}, 0.0});
+    QTRY_COMPARE(count(c), robots + 1);
+    const auto& added = c.frame()->robots.back().identity;
+    QCOMPARE(c.edits()->robot(added.id)->model, match().robots.front().model);
+  }
+
   void movesAreUndoneAndRedone() {
     MatchController c(inside());
     c.open(match(), true);
@@ -79,10 +108,10 @@ class TestMatchController : public QObject {
     const Pose middle{{1.0, 1.5}, 0.0}, end{{1.5, 1.5}, 0.0};
     c.edits()->nudgeRobots({{id, from, middle}});
     c.edits()->nudgeRobots({{id, middle, end}});
-    QCOMPARE(c.edits()->undoStack()->count(), 1);
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 1);
     c.edits()->moveRobots({{id, end, from}});
     c.edits()->nudgeRobots({{id, from, middle}});
-    QCOMPARE(c.edits()->undoStack()->count(), 3);
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 3);
     c.edits()->undoStack()->undo();
     c.edits()->undoStack()->undo();
     QTRY_COMPARE(xOf(c, id.value), end.position.x);
@@ -112,7 +141,7 @@ class TestMatchController : public QObject {
     QUndoStack* stack = c.edits()->undoStack();
     const std::string before = c.edits()->robot(RobotId{1})->behaviour;
     c.edits()->setBehaviour({RobotId{1}, RobotId{2}}, QStringLiteral("idle"));
-    QCOMPARE(stack->count(), 1);
+    QTRY_COMPARE(stack->count(), 1);
     QTRY_COMPARE(c.frame()->robots[0].behaviour, std::string("idle"));
     stack->undo();
     QTRY_COMPARE(c.frame()->robots[0].behaviour, before);
@@ -121,7 +150,7 @@ class TestMatchController : public QObject {
     stack->undo();
     QTRY_COMPARE(c.frame()->robots[0].identity.number, 1);
     c.edits()->setNumber(RobotId{1}, 2);  // is worn
-    QCOMPARE(stack->count(), 1);
+    QTRY_COMPARE(stack->count(), 1);
     QVERIFY(!stack->canUndo());
     const sim::RobotModel adult = link::loadRobotModel("adult-size").value();
     c.edits()->setModel({RobotId{1}}, adult);
@@ -144,7 +173,7 @@ class TestMatchController : public QObject {
     c.edits()->replaceMatch(link::loadScenario("one-robot").value(), QStringLiteral("Open it"),
                             QStringLiteral("Opened"), true);
     QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 1);
-    QCOMPARE(stack->count(), 3);
+    QTRY_COMPARE(stack->count(), 3);
     stack->undo();
     QTRY_VERIFY(c.frame() && c.frame()->robots.size() == 6);
     QCOMPARE(c.frame()->settings->physics, std::string("published"));
@@ -225,6 +254,79 @@ class TestMatchController : public QObject {
     QCOMPARE(c.frame()->robots.size(), std::size_t(6));
   }
 
+  void restartKeepsWhatWasSetUp() {
+    MatchController c(inside());
+    const link::Scenario scenario = match();
+    c.open(scenario, true);
+    QTRY_VERIFY(c.frame());
+    sim::NoiseParameters noise = c.frame()->settings->noise;
+    noise.forward *= 2.0;
+    QSignalSpy done(c.edits(), &MatchEdits::replaced);
+    c.restart();
+    QTRY_VERIFY(c.frame());
+    QCOMPARE(done.takeFirst().at(0).toString(), QStringLiteral("Match restarted"));
+    c.edits()->setNoise(noise);
+    c.edits()->setBehaviour({RobotId{1}}, QStringLiteral("idle"));
+    c.edits()->setNumber(RobotId{1}, 9);
+    c.edits()->removeRobots({RobotId{2}});
+    c.edits()->addRobot(TeamColor::Blue, {{1.0, 2.0}, 0.0}, 7);
+    c.runTo(60);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(60));
+    QTRY_VERIFY(c.frame()->settings->noise == noise);
+    c.restart();
+    QTRY_VERIFY(c.frame() && tickOf(c) == 0);
+    QVERIFY(done.takeFirst().at(0).toString().startsWith("Match restarted with what you set up"));
+    QVERIFY(c.frame()->settings->noise == noise);
+    const link::RobotFrame* first = c.frame()->robot(RobotId{1});
+    QVERIFY(first);
+    QCOMPARE(first->behaviour, std::string("idle"));
+    QCOMPARE(first->identity.number, 9);
+    // It begins where the scenario puts it.
+    QVERIFY(std::abs(first->pose.position.x - scenario.robots[0].pose.position.x) < 1e-9);
+    const auto& robots = c.frame()->robots;
+    QCOMPARE(robots.size(), scenario.robots.size());
+    QVERIFY(std::ranges::any_of(robots, [](const auto& one) {
+      return one.identity.number == 7 && std::abs(one.pose.position.y - 2.0) < 1e-9;
+    }));
+    // The scenario itself has none of it.
+    c.open(scenario, true);
+    QTRY_VERIFY(c.frame());
+    QVERIFY(c.frame()->settings->noise != noise);
+    QCOMPARE(c.frame()->robot(RobotId{1})->identity.number, 1);
+  }
+
+  void thePastShowsTheBehavioursOfThen() {
+    MatchController c(inside());
+    c.open(match(), true);
+    c.runTo(60);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(60));
+    const RobotUid uid = c.frame()->robots[0].uid;
+    const std::string before = c.frame()->robots[0].behaviour;
+    c.edits()->setBehaviour({RobotId{1}}, QStringLiteral("idle"));
+    QTRY_COMPARE(c.frame()->robot(uid)->behaviour, std::string("idle"));
+    c.runTo(120);
+    QTRY_COMPARE(tickOf(c), std::uint64_t(120));
+    QCOMPARE(c.frameAt(0.5)->robot(uid)->behaviour, before);
+    QCOMPARE(c.frameAt(1.5)->robot(uid)->behaviour, std::string("idle"));
+  }
+
+  void aTeamThatCannotPlayIsNotOffered() {
+    MatchController c(inside());
+    link::Scenario refereed = match();
+    refereed.settings.referee.emplace();
+    c.open(refereed, true);
+    QTRY_VERIFY(c.frame());
+    QVERIFY(c.edits()->whyNoTeam(TeamColor::Blue).isEmpty());
+    QVERIFY(!c.edits()->whyNoTeam(TeamColor::Black).isEmpty());
+    sim::RobotIdentity wanted = c.edits()->robot(RobotId{1})->identity;
+    QVERIFY(!c.edits()->isTaken(wanted));
+    wanted.number = 2;
+    QVERIFY(c.edits()->isTaken(wanted));
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame() && !c.frame()->game);
+    QVERIFY(c.edits()->whyNoTeam(TeamColor::Black).isEmpty());
+  }
+
   void whileLockedNothingPasses() {
     MatchController c(inside());
     QSignalSpy errors(&c, &MatchController::errorOccurred);
@@ -242,17 +344,15 @@ class TestMatchController : public QObject {
                                     ++*ordered;
                                     return {};
                                   }});
-      c.edits()->moveBall({}, {1, 1});
+      c.edits()->moveBall({1, 1});
       c.edits()->setPhysics(QStringLiteral("published"));
       c.edits()->setNoise({});
       c.edits()->setRuntime(RobotId{1}, {});
-      c.edits()->previewBall({2, 2});
-      c.edits()->previewRobots({{RobotId{1}, {}, {{1, 2}, 0}}});
       const auto place = [](link::SimulatedMatch& match) {
         return match.simulation().placeBall({1, 1});
       };
-      c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
-                              {{place, place}, {place, place}});
+      c.edits()->perform(
+          {QStringLiteral("Two"), QStringLiteral("Failed"), {{place, place}, {place, place}}});
       c.edits()->resetScore();
       c.edits()->setClockRunning(false);
       c.edits()->setTeam({RobotId{1}}, TeamColor::Black);
@@ -290,14 +390,16 @@ class TestMatchController : public QObject {
     const auto refuse = [](link::SimulatedMatch&) -> Result<void> {
       return failure(ErrorCode::Conflict, "not now");
     };
-    c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
-                            {{score(1), score(0)}, {refuse, score(7)}});
+    c.edits()->perform({QStringLiteral("Two"),
+                        QStringLiteral("Failed"),
+                        {{score(1), score(0)}, {refuse, score(7)}}});
     QTRY_COMPARE(errors.count(), 1);
     QCOMPARE(errors[0][0].toString(), QStringLiteral("Failed: not now"));
     QCOMPARE(c.stateHash(), hash);
     QCOMPARE(stack->count(), 0);
-    c.edits()->performOrder(QStringLiteral("Two"), QStringLiteral("Failed"),
-                            {{score(1), score(0)}, {score(2), score(1)}});
+    c.edits()->perform({QStringLiteral("Two"),
+                        QStringLiteral("Failed"),
+                        {{score(1), score(0)}, {score(2), score(1)}}});
     QTRY_COMPARE(stack->count(), 1);
     QTRY_COMPARE(c.frame()->snapshot.score.left, 2);
     stack->undo();
@@ -341,7 +443,7 @@ class TestMatchController : public QObject {
     c.edits()->undoStack()->undo();
     QTRY_COMPARE(xOf(c, 1), from.position.x);
     // The refused one between them is not a step.
-    QCOMPARE(stack->undoText(), QStringLiteral("Remove B2"));
+    QTRY_COMPARE(stack->undoText(), QStringLiteral("Remove B2"));
     c.edits()->undoStack()->undo();
     QTRY_COMPARE(count(c), std::size_t(6));
     QVERIFY(!stack->canUndo());
@@ -358,6 +460,30 @@ class TestMatchController : public QObject {
     c.edits()->undoStack()->redo();
     QTRY_COMPARE(errors.count(), 3);
     QVERIFY(!stack->canUndo() && !stack->canRedo());
+  }
+
+  // A refusal says why, also in the middle of changes that become one step.
+  void movingARobotThatLeftIsRefused() {
+    MatchController c(inside());
+    QSignalSpy errors(&c, &MatchController::errorOccurred);
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    const auto moved = [&c](double x) {
+      return std::vector<RobotPlacement>{{RobotId{1}, {}, {{x, 1.5}, 0.0}},
+                                         {RobotId{2}, {}, {{x, -1.5}, 0.0}}};
+    };
+    c.edits()->nudgeRobots(moved(1.0));
+    QTRY_COMPARE(xOf(c, 1), 1.0);
+    c.post([](link::SimulatedMatch& match) {
+      return match.robots().remove(RobotId{2}) ? link::Changed::Yes : link::Changed::No;
+    });
+    c.edits()->nudgeRobots(moved(1.1));
+    QTRY_COMPARE(errors.count(), 1);
+    const QString why = errors[0][0].toString();
+    QVERIFY2(why.startsWith(QStringLiteral("Could not move 2 robots: ")), qPrintable(why));
+    c.settle();
+    QCOMPARE(xOf(c, 1), 1.0);  // together or not at all
+    QTRY_COMPARE(c.edits()->undoStack()->count(), 1);
   }
 
   // Two changes within a second are one step, which can be undone as often as it is done again.
@@ -434,8 +560,8 @@ class TestMatchController : public QObject {
     c.open(realTimeRobot(folder), false);
     const auto program = [&c] {
       const auto all =
-          c.frame() ? c.frame()->robots[0].processes() : std::span<const link::ProcessSummary>();
-      return all.empty() ? link::ProcessSummary{} : all.front();
+          c.frame() ? c.frame()->robots[0].processes() : std::span<const link::ProcessStatus>();
+      return all.empty() ? link::ProcessStatus{} : all.front();
     };
     QTRY_VERIFY(program().pid != 0);
     const int first = program().pid;
@@ -451,7 +577,8 @@ class TestMatchController : public QObject {
     QVERIFY(!c.waitsForTeamPrograms());
     QCOMPARE(program().pid, first);
     c.answerSpeed(4.0, Programs::RestartWithMatchTime);
-    QTRY_VERIFY(program().pid != 0 && program().pid != first && program().whyRealTime.empty());
+    QTRY_VERIFY(program().pid != 0 && program().pid != first &&
+                program().clock == link::ProcessClock::Match);
     c.setSpeed(2.0);
     QCOMPARE(c.speed(), 2.0);
     QCOMPARE(asked.count(), 1);

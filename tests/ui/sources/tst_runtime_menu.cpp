@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who runs for a robot, chosen with the mouse: my program as its decision, and my robot among
+// The processes of a robot, chosen with the mouse: my program as its decision, and my robot among
 // reference robots.
 #include <QDialogButtonBox>
 #include <QFile>
@@ -49,16 +49,16 @@ class TestRuntimeMenu : public QObject {
     QVERIFY(QFile::rename(fresh, path));
   }
 
-  static std::vector<link::ProcessSummary> processesOf(const MatchController& controller,
-                                                       int robot) {
+  static std::vector<link::ProcessStatus> processesOf(const MatchController& controller,
+                                                      int robot) {
     const FramePtr frame = controller.frame();
     const link::RobotFrame* seen = frame ? frame->robot(RobotId{robot}) : nullptr;
     if (!seen) return {};
     const auto all = seen->processes();
     return {all.begin(), all.end()};
   }
-  static link::ProcessSummary decisionOf(const MatchController& controller, int robot) {
-    for (const link::ProcessSummary& one : processesOf(controller, robot)) {
+  static link::ProcessStatus decisionOf(const MatchController& controller, int robot) {
+    for (const link::ProcessStatus& one : processesOf(controller, robot)) {
       if (one.name == "decision") return one;
     }
     return {};
@@ -119,7 +119,7 @@ class TestRuntimeMenu : public QObject {
     choose(controller, 1, QStringLiteral("Run my program"));
     QVERIFY(typed);
     const auto hasText = [&](const QString& words) {
-      const link::ProcessSummary now = decisionOf(controller, 1);
+      const link::ProcessStatus now = decisionOf(controller, 1);
       const std::string wanted =
           (words + QLatin1Char(' ') + QString::number(m_base + 100)).toStdString();
       return now.isTeamProgram && now.state == link::ProcessState::Running &&
@@ -128,7 +128,7 @@ class TestRuntimeMenu : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(hasText(QStringLiteral("first")), 30'000);
     // It is watched: what runs beside it is ours and stays, planning is not.
     std::vector<std::string> names;
-    for (const link::ProcessSummary& one : processesOf(controller, 1)) names.push_back(one.name);
+    for (const link::ProcessStatus& one : processesOf(controller, 1)) names.push_back(one.name);
     QCOMPARE(names,
              (std::vector<std::string>{"localization", "team", "decision", "communication"}));
     // Built again: it starts again.
@@ -152,29 +152,30 @@ class TestRuntimeMenu : public QObject {
     QVERIFY(link::SystemVSegments::open(m_base + 200, link::AttachMode::AttachOnly));
   }
 
-  /// A check box for the whole team; undo stops the processes.
-  void aTeamThinksAhead() {
+  /// A check box for the whole team; its keeper has the process, and undo stops it.
+  void aTeamHasAnAdvisor() {
     MatchController controller(options());
     controller.open(link::loadScenario("match-3v3").value());
     QTRY_VERIFY_WITH_TIMEOUT(decisionOf(controller, 6).pid > 0, 30'000);
     const auto advised = [&controller] {
       std::vector<int> robots;
       for (int robot = 1; robot <= 6; ++robot) {
-        for (const link::ProcessSummary& one : processesOf(controller, robot)) {
+        for (const link::ProcessStatus& one : processesOf(controller, robot)) {
           if (one.name == "advisor") robots.push_back(robot);
         }
       }
       return robots;
     };
-    const std::vector<int> blue{1, 2, 3}, none;
+    const std::vector<int> keeper{2}, none;
     QCOMPARE(advised(), none);
     choose(controller, 2, QStringLiteral("Advisor"), &addTeamMenu);
-    QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), keeper, 30'000);
     QVERIFY(controller.edits()->isAdvised(TeamColor::Blue));
+    QTRY_VERIFY(controller.edits()->undoStack()->canUndo());  // once the match has done it
     controller.edits()->undoStack()->undo();
     QTRY_COMPARE_WITH_TIMEOUT(advised(), none, 30'000);
     controller.edits()->undoStack()->redo();
-    QTRY_COMPARE_WITH_TIMEOUT(advised(), blue, 30'000);
+    QTRY_COMPARE_WITH_TIMEOUT(advised(), keeper, 30'000);
     choose(controller, 3, QStringLiteral("Advisor"), &addTeamMenu);
     QTRY_COMPARE_WITH_TIMEOUT(advised(), none, 30'000);
     QVERIFY(!controller.edits()->isAdvised(TeamColor::Blue));

@@ -56,6 +56,11 @@ struct Studio : studio_rig::Studio {
   const link::RobotFrame& robot(std::size_t i = 0) { return live()->frame()->robots.at(i); }
   const telemetry::LinkHealth& health(std::size_t i = 0) { return *robot(i).link; }
   QList<RobotCard*> cards() { return window.findChild<RobotsDock*>()->cards(); }
+  /// The key that the robot of a card has now.
+  RobotKey keyOn(qsizetype card) {
+    const link::RobotFrame* shown = live()->frame()->robot(cards()[card]->state().id);
+    return shown != nullptr ? shown->key : RobotKey{};
+  }
   QGraphicsView* canvas() { return window.field()->findChild<QGraphicsView*>(); }
   Scoreboard* scoreboard() { return window.findChild<Scoreboard*>(QStringLiteral("scoreboard")); }
   QString label(const char* name) { return window.findChild<QLabel*>(QLatin1String(name))->text(); }

@@ -12,7 +12,7 @@
 #include <ui/base/notice_bar.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -45,7 +45,7 @@ struct Studio : studio_rig::Studio {
     const std::uint64_t to = controller.frame()->snapshot.tick + ticks;
     controller.runTo(to);
     if (!QTest::qWaitFor([this, to] { return played(to); }, 20'000)) return {};
-    window.timeline()->addBookmark(QStringLiteral("recorded"));
+    window.shown()->addBookmark(QStringLiteral("recorded"));
     QTest::mouseClick(record(), Qt::LeftButton, {}, {8, 8});
     if (!QTest::qWaitFor([&saved] { return saved.size() == 1; }, 20'000)) return {};
     return saved.at(0).at(0).toString();

@@ -97,7 +97,7 @@ class TestBranch : public QObject {
     s.playTo(600);
     s.leaveAt(4.0);
     // It goes another way now.
-    s.controller.edits()->moveBall({}, {2.0, 2.0});
+    s.controller.edits()->moveBall({2.0, 2.0});
     s.playTo(480);
     auto* plots = s.window.findChild<PlotsDock*>();
     plots->plotVariables({QStringLiteral("match/BALL_X")});

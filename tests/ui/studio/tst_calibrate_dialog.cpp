@@ -154,11 +154,13 @@ class TestCalibrateDialog : public QObject {
     s.click("calibrateUseRobot");
     QCOMPARE(s.model(1).name, std::string("B1-calibrated"));
     QCOMPARE(s.model(2).name, std::string("kid-size"));
+    QTRY_COMPARE(s.controller.edits()->undoStack()->index(), 1);  // once the match has done it
     s.controller.edits()->undoStack()->undo();
     QCOMPARE(s.model(1).turn, before);
     s.click("calibrateUseTeam");
     QCOMPARE(s.model(1).name, std::string("B1-calibrated"));
     QCOMPARE(s.model(2).name, std::string("B1-calibrated"));
+    QTRY_COMPARE(s.controller.edits()->undoStack()->index(), 1);
     s.controller.edits()->undoStack()->undo();
     QCOMPARE(s.model(1).name, std::string("kid-size"));
     QCOMPARE(s.model(2).name, std::string("kid-size"));

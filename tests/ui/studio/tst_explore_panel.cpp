@@ -2,7 +2,6 @@
 // The panel Explore: a moment is explored from the menu and from the panel, in Simulate, while
 // looking back, in Replay and in Live; the field shows what was found.
 
-#include <QComboBox>
 #include <QDockWidget>
 #include <QGraphicsView>
 #include <QLabel>
@@ -10,7 +9,6 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QSlider>
-#include <QTableWidget>
 
 #include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
@@ -19,7 +17,7 @@
 
 #include "../support/menu_entry.h"
 #include "../support/robot_keys.h"
-#include "advice_items.h"
+#include "heat_item.h"
 #include "live_rig.h"
 #include "session_rig.h"
 
@@ -48,15 +46,6 @@ struct Panel {
   QString text(const char* label) const { return find<QLabel>(label)->text(); }
   void press(const char* button) const {
     QTest::mouseClick(find<QPushButton>(button), Qt::LeftButton);
-  }
-  /// As a person does with the arrow keys.
-  void chooseRobot(const QString& name) const {
-    auto* box = find<QComboBox>("exploreRobot");
-    box->setFocus();
-    while (box->currentIndex() > 0) QTest::keyClick(box, Qt::Key_Up);
-    for (int i = 0; i < box->count() && box->currentText() != name; ++i) {
-      QTest::keyClick(box, Qt::Key_Down);
-    }
   }
   bool hasResult() const {
     return explorer->found() != nullptr && explorer->found()->result.rollouts > 0;
@@ -108,9 +97,7 @@ class TestExplorePanel : public QObject {
     QCOMPARE(panel.explorer->found()->time, 15.0);
     QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("true positions")));
     QVERIFY(panel.text("exploreGoals").contains(QStringLiteral("Blue scores")));
-    QVERIFY(panel.find<QTableWidget>("exploreActions")->isHidden());  // no robot is chosen
     QVERIFY(panel.item<HeatItem>() != nullptr);
-    QVERIFY(panel.item<ActionArrowsItem>() == nullptr);
     panel.press("exploreCancel");
     QVERIFY(!panel.explorer->isRunning());
     QVERIFY(panel.hasResult());
@@ -136,35 +123,15 @@ class TestExplorePanel : public QObject {
     QVERIFY(panel.explorer->found() == nullptr);
   }
 
-  void actionsOfTheChosenRobotAreCompared() {
+  void anotherMatchForgetsWhatWasFound() {
     Studio s(900);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(900), patience_ms);
     Panel panel(s.window);
     panel.dock->show();
-    s.window.field()->select({blue(2)});  // the selected robot is offered
-    QCOMPARE(panel.find<QComboBox>("exploreRobot")->currentText(), QStringLiteral("B2"));
-    panel.chooseRobot(QStringLiteral("B1"));
-    QVERIFY(panel.explorer->robot() == blue(1));
     panel.press("exploreStart");
     QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
-    const link::ExploreResult& result = panel.explorer->found()->result;
-    auto* table = panel.find<QTableWidget>("exploreActions");
-    QCOMPARE(std::size_t(table->rowCount()), result.actions.size());
-    const int best = int(result.best);
-    QVERIFY(table->item(best, 0)->font().bold());
-    QCOMPARE(table->item(best, 2)->text(), QStringLiteral("best"));
-    QVERIFY(table->item(best == 0 ? 1 : 0, 2)->text().contains(QStringLiteral(" ± ")));
-    QCOMPARE(panel.text("exploreVerdict"), QString::fromStdString(result.verdict()));
-    const auto* arrows = panel.item<ActionArrowsItem>();
-    QVERIFY(arrows != nullptr);
-    QCOMPARE(arrows->actions().size(), std::size_t(1));
-    QVERIFY(arrows->actions()[0].text.startsWith(
-        QString::fromStdString(result.actions[result.best].text)));
-    QCOMPARE(arrows->actions()[0].dashed, !result.isClear());
-    // Another match: what was found is of the old one.
     s.controller.open(link::loadScenario("one-robot").value(), true);
     QTRY_VERIFY(panel.explorer->found() == nullptr && !panel.explorer->isRunning());
-    QTRY_COMPARE(panel.find<QComboBox>("exploreRobot")->count(), 2);
   }
 
   void thePastAndARecordingAreExplored() {
@@ -172,19 +139,19 @@ class TestExplorePanel : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(s.played(900), patience_ms);
     Panel panel(s.window);
     panel.dock->show();
-    s.window.timeline()->seek(10.0);
-    QVERIFY(s.window.timeline()->isLookingBack());
+    s.window.shown()->seek(10.0);
+    QVERIFY(s.window.shown()->isLookingBack());
     panel.press("exploreStart");
     QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);
     QCOMPARE(panel.explorer->found()->time, 10.0);
     QVERIFY(panel.text("exploreNotes").contains(QStringLiteral("true positions")));
-    s.window.timeline()->goLive();
+    s.window.shown()->goLive();
     const QString session = s.recorded(60);
     QVERIFY(!session.isEmpty());
     s.window.openSession(session);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     QTRY_VERIFY(panel.explorer->found() == nullptr);
-    s.window.timeline()->seek(s.window.timeline()->available()->end);
+    s.window.shown()->seek(s.window.shown()->available()->end);
     QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
     panel.press("exploreStart");
     QTRY_VERIFY_WITH_TIMEOUT(panel.hasResult(), patience_ms);

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <set>
 
+#include <ui/base/referee_text.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_edits.h>
 
@@ -33,7 +34,7 @@ struct Studio : window_rig::Studio {
   }
   QLabel* sign(const char* name) { return find<QLabel>(name); }
   bool hasText(const char* name) { return sign(name) != nullptr && sign(name)->isVisible(); }
-  QString state() const { return QString::fromStdString(controller.frame()->referee->state); }
+  QString state() const { return labelText(controller.frame()->game->state); }
 };
 
 }  // namespace
@@ -139,7 +140,7 @@ class TestFirstMinute : public QObject {
     // It stands where it was looked for, and goes on as before: paused.
     QTRY_VERIFY(s.controller.frame()->paused);
     const std::uint64_t there = s.controller.frame()->snapshot.tick;
-    QCOMPARE(s.controller.frame()->referee->secondsLeft, 600);
+    QCOMPARE(s.controller.frame()->game->secondsLeft(), 600);
     s.controller.settle();
     QCOMPARE(s.controller.frame()->snapshot.tick, there);
     QVERIFY(s.controller.isPaused());
@@ -179,8 +180,14 @@ class TestFirstMinute : public QObject {
     // A match without a referee says why.
     s.open("match-3v3", true);
     QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(6));
-    s.find<QAction>("skipToKickOff")->trigger();
-    QTRY_VERIFY(s.window.notices()->text().contains(QStringLiteral("no referee")));
+    const auto* kickOff = s.find<QAction>("skipToKickOff");
+    QTRY_VERIFY(!kickOff->isEnabled() && s.find<QAction>("skipToEvent")->isEnabled());
+    QVERIFY2(kickOff->toolTip().contains(QStringLiteral("no referee")),
+             qPrintable(kickOff->toolTip()));
+    s.open("match", true);
+    QTRY_VERIFY(kickOff->isEnabled());
+    QVERIFY2(kickOff->toolTip().startsWith(QStringLiteral("Plays at full speed")),
+             qPrintable(kickOff->toolTip()));
   }
 
   void theFirstFrameIsTheField() {

@@ -41,7 +41,7 @@ struct Keys : Studio {
     field()->select({blue()});
   }
   FieldView* field() { return window.field(); }
-  RobotKey blue() { return controller.frame()->robots.front().key; }
+  RobotUid blue() { return controller.frame()->robots.front().uid; }
   QAction* action(const char* id) { return find<QAction>(id); }
   /// Where people click before they press a key.
   std::map<QString, QWidget*> places() {
@@ -107,8 +107,8 @@ class TestKeyMap : public QObject {
     QFETCH(QString, place);
     Keys k;
     for (const char* dock : {"log", "variables"}) k.find<QDockWidget>(dock)->raise();
-    QWidget* focus = k.places()[place];
-    QVERIFY(focus);
+    QWidget* focus = nullptr;
+    QTRY_VERIFY((focus = k.places()[place]) != nullptr);
     const std::set<std::string> ends{"quit",      "openFile",   "openSession",  "saveScenario",
                                      "fieldOnly", "fullScreen", "findAnything", "showKeys"};
     for (const KeyRow& row : keyRows()) {
@@ -184,7 +184,7 @@ class TestKeyMap : public QObject {
     auto* filter = k.find<QDockWidget>("variables")->findChild<QLineEdit*>();
     QVERIFY(filter);
     filter->setFocus();
-    const double shown = k.timeline()->shownTime();
+    const double shown = k.timeline()->time();
     const bool paused = k.controller.isPaused();
     QTest::keyClicks(filter, QStringLiteral("m n 1 -0+a"));
     QCOMPARE(filter->text(), QStringLiteral("m n 1 -0+a"));
@@ -192,7 +192,7 @@ class TestKeyMap : public QObject {
     QTest::keyClick(filter, Qt::Key_Right);
     QTest::keyClick(filter, Qt::Key_Delete);
     QCOMPARE(filter->text(), QStringLiteral("mn 1 -0+a"));
-    QCOMPARE(k.timeline()->shownTime(), shown);
+    QCOMPARE(k.timeline()->time(), shown);
     QCOMPARE(k.controller.isPaused(), paused);
     QCOMPARE(k.field()->selection(), std::vector{k.blue()});
     QCOMPARE(k.controller.frame()->robots.size(), std::size_t(6));

@@ -18,7 +18,7 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
 #include "../support/robot_keys.h"
@@ -154,7 +154,7 @@ class TestLive : public QObject {
     };
     const auto isRead = [&] { return robot.sendMessage() && rate().toDouble() > 1.0; };
     QTRY_VERIFY2(isRead(), qPrintable(s.label("statusPace")));
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     timeline->seek(timeline->available()->begin);
     QVERIFY(timeline->isLookingBack());
     const std::uint64_t before = s.health().messages;
@@ -179,7 +179,7 @@ class TestLive : public QObject {
     const QPoint here = canvas->mapFromScene(QPointF(at.x, at.y));
     canvas->setFocus();
     QTest::mouseClick(canvas->viewport(), Qt::LeftButton, {}, here);
-    QCOMPARE(s.window.field()->selection(), std::vector{receivedAs(1)});
+    QCOMPARE(s.window.field()->selection(), std::vector{uidIn(*s.live()->frame(), receivedAs(1))});
     QTest::mousePress(canvas->viewport(), Qt::LeftButton, {}, here);
     QTest::mouseMove(canvas->viewport(), here + QPoint(60, 40));
     QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, {}, here + QPoint(60, 40));
@@ -210,7 +210,7 @@ class TestLive : public QObject {
     }
     QVERIFY(s.controller.edits()->undoStack() != nullptr);
     QTest::keyClick(canvas, Qt::Key_F, Qt::ControlModifier);
-    QVERIFY(s.window.field()->isFlipped());
+    QVERIFY(s.window.field()->actions().flip->isChecked());
   }
 
   void aTakenPortIsNamedAndTheOthersWork() {
@@ -369,7 +369,7 @@ class TestLive : public QObject {
     QVERIFY(Robot(s.options, 1).sendMessage(m));
     const auto error = [&]() -> QString {
       for (RobotCard* card : s.cards()) {
-        if (card->state().id != blue(1)) continue;
+        if (card->state().id != inSlot(1)) continue;
         for (const CardValue& value : card->state().values) {
           if (value.name == QStringLiteral("BELIEF_ERROR")) return value.text;
         }

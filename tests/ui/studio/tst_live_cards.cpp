@@ -67,7 +67,7 @@ class TestLiveCards : public QObject {
     }
     QTRY_COMPARE(s.robots(), std::size_t(2));
     QVERIFY(s.health(0).conflict && s.health(1).conflict);
-    QVERIFY(s.live()->frame()->robots[0].key != s.live()->frame()->robots[1].key);
+    QVERIFY(s.live()->frame()->robots[0].uid != s.live()->frame()->robots[1].uid);
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
     QCOMPARE(s.cards()[0]->state().tag, QStringLiteral("two senders"));
   }
@@ -87,7 +87,39 @@ class TestLiveCards : public QObject {
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QVERIFY(Robot(s.options, 1).sendMessage());
     QTRY_COMPARE(s.cards().size(), qsizetype(2));
-    QVERIFY(s.cards()[0]->state().id == blue(1) && s.cards()[1]->state().id == red(2));
+    QVERIFY(s.keyOn(0) == blue(1) && s.keyOn(1) == red(2));
+  }
+
+  /// Robots that come after a setup was applied stand among those that were there.
+  void cardsAreSortedAfterASetup() {
+    Studio s;
+    s.goLive();
+    for (const int number : {6, 1}) QVERIFY(Robot(s.options, number).sendMessage());
+    QTRY_COMPARE(s.cards().size(), qsizetype(2));
+    link::LiveOptions options = s.options;
+    options.team.teams.resize(1);
+    s.live()->setOptions(options);
+    const Robot one(s.options, 1), two(s.options, 2), six(s.options, 6);
+    const auto sorted = [&] {
+      if (!six.sendMessage() || !two.sendMessage() || !one.sendMessage()) return false;
+      const QList<RobotCard*> cards = s.cards();
+      return cards.size() == 3 && s.keyOn(0) == blue(1) && s.keyOn(1) == blue(2) &&
+             s.keyOn(2) == blue(6);
+    };
+    QTRY_VERIFY(sorted());
+    // Their team is the other one's opponent now.
+    options.team.teams.emplace_back().firstPort = options.portBase + 1;
+    options.team.teams.back().lastPort = options.portBase + 1;
+    std::swap(options.team.teams[0], options.team.teams[1]);
+    s.live()->setOptions(options);
+    const auto ids = [&] {
+      QStringList all;
+      for (int i = 0; i < s.cards().size(); ++i) {
+        all << QStringLiteral("%1/%2").arg(s.keyOn(i).team).arg(s.keyOn(i).number);
+      }
+      return all.join(QLatin1Char(' '));
+    };
+    QTRY_VERIFY(one.sendMessage() && ids() == QStringLiteral("1/1 2/1 2/2 2/6"));
   }
 
   void lowBatteryAndUnresponsiveProcess() {
@@ -144,11 +176,12 @@ class TestLiveCards : public QObject {
     QTest::mouseMove(first, below);
     QTest::mouseRelease(first, Qt::LeftButton, {}, below);
     QCOMPARE(s.cards()[2], first);
-    dock->floatCard(receivedAs(1));
+    const RobotUid uid = first->state().id;
+    dock->floatCard(uid);
     QCOMPARE(s.cards().size(), qsizetype(2));
-    QVERIFY(dock->floating(receivedAs(1))->isFloating());
+    QVERIFY(dock->floating(uid)->isFloating());
     QVERIFY(first->isVisible());
-    dock->floating(receivedAs(1))->close();
+    dock->floating(uid)->close();
     QCOMPARE(s.cards().size(), qsizetype(3));
     QVERIFY(first->isVisible());
     CardParts parts = dock->parts();

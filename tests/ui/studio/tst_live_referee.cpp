@@ -6,6 +6,7 @@
 #include <QtTest>
 
 #include <ui/base/notice_bar.h>
+#include <ui/base/referee_text.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/field/field_view.h>
 #include <ui/robots/robot_card.h>
@@ -13,8 +14,7 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
 #include "live_rig.h"
@@ -56,11 +56,11 @@ class TestLiveReferee : public QObject {
     QTRY_VERIFY(!live.details().network.ports.empty());
     const TestSocket referee;
     QVERIFY(referee.send(static_cast<std::uint16_t>(options.refereePort), bytes));
-    QTRY_VERIFY(live.frame() && live.frame()->referee);
+    QTRY_VERIFY(live.frame() && live.frame()->game);
     const ScoreboardState shown = scoreboardOf(*live.frame());
     QCOMPARE(shown.left, state.teams[0].score);
     QCOMPARE(shown.right, state.teams[1].score);
-    QVERIFY2(shown.state.startsWith(QString::fromUtf8(telemetry::stateName(state.state).data())),
+    QVERIFY2(shown.state.startsWith(labelText(telemetry::playStateOf(state.state))),
              qPrintable(shown.state));
     QVERIFY(!referee.received());
   }
@@ -68,9 +68,11 @@ class TestLiveReferee : public QObject {
   void teamsHaveTheirNamesOnTheScoreboard() {
     link::MatchFrame frame;
     frame.origin = link::FrameOrigin::Live;
-    auto& teams = frame.referee.emplace().teams;
-    teams[0] = {12, "blue", 1, 4, {}, "RoboFEI"};
-    teams[1] = {7, "red", 0, 4, {}, {}};
+    Game& game = frame.game.emplace();
+    game.teams[0].number = 12;
+    game.teams[1].number = 7;
+    game.teams[1].colour = TeamColor::Red;
+    frame.teams = {{}, {12, "RoboFEI", TeamColor::Blue, true}};
     const ScoreboardState state = scoreboardOf(frame);
     QCOMPARE(state.leftName, QStringLiteral("ROBOFEI"));
     QCOMPARE(state.rightName, QStringLiteral("RED"));
@@ -99,13 +101,16 @@ class TestLiveReferee : public QObject {
 
   void penaltiesOfOurTeamAreMarked() {
     const std::string bytes = live_rig::packet(QStringLiteral("v12hl640_2017.3_PENALISED.bin"));
-    const auto state = std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value());
+    const Game game = telemetry::gameOf(
+        std::get<telemetry::RefereeState>(telemetry::decodeReferee(bytes).value()));
     int team = 0, player = 0;
-    for (const auto& side : state.teams) {
-      for (const auto& slot : side.players()) {
-        if (slot.penalty == 0 || telemetry::isSubstitute(state, slot) || player != 0) continue;
+    for (const GameTeam& side : game.teams) {
+      for (std::size_t i = 0; i < side.players.size(); ++i) {
+        const PenaltyKind penalty = side.players[i].penalty;
+        const bool isPenalised = penalty != PenaltyKind::None && penalty != PenaltyKind::Substitute;
+        if (!isPenalised || side.shirts[i] == 0 || player != 0) continue;
         team = side.number;
-        player = slot.number;
+        player = side.shirts[i];
       }
     }
     QVERIFY(player > 0);
@@ -115,7 +120,7 @@ class TestLiveReferee : public QObject {
     const TestSocket referee;
     QVERIFY(referee.send(static_cast<std::uint16_t>(s.options.refereePort), bytes));
     QVERIFY(robot.sendMessage());
-    QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->referee);
+    QTRY_VERIFY(s.robots() == 1 && s.live()->frame()->game);
     QVERIFY(!s.robot().penalty);
     s.live()->setOurTeam(team);
     QTRY_VERIFY(s.robot().penalty);
@@ -128,17 +133,17 @@ class TestLiveReferee : public QObject {
   void everyPenaltyIsShownOnce() {
     link::MatchFrame frame;
     frame.origin = link::FrameOrigin::Live;
-    frame.referee.emplace();
+    frame.game.emplace();
     for (const int sender : {0, 1}) {
       link::RobotFrame robot;
       robot.identity.team = TeamColor::Blue;
       robot.identity.number = 3;
       robot.key = {1, 3, sender};
       robot.name = "B3";
-      robot.penalty = link::Penalty{"pickup", 20};
+      robot.penalty = link::Penalty{PenaltyKind::PickUp, 20};
       frame.robots.push_back(robot);
     }
-    QCOMPARE(scoreboardOf(frame).penalties, QStringLiteral("B3 20"));
+    QCOMPARE(scoreboardOf(frame).penalties, QStringLiteral("Penalties: B3 20"));
   }
 
   void aGoalIsAnEvent() {
@@ -154,7 +159,7 @@ class TestLiveReferee : public QObject {
                           live_rig::packet(QLatin1String(file)));
     };
     QVERIFY(send("v12hl688_INITIAL.bin"));
-    QTRY_VERIFY(live.frame() && live.frame()->referee);
+    QTRY_VERIFY(live.frame() && live.frame()->game);
     QVERIFY(send("v12hl688_PLAYING_1-0.bin"));
     const auto goal = [&events]() -> std::optional<link::MatchEvent> {
       for (const auto& call : events) {
@@ -175,11 +180,11 @@ class TestLiveReferee : public QObject {
     const Robot robot(s.options, 3);
     QVERIFY(robot.sendMessage());
     QTRY_COMPARE(s.robots(), std::size_t(1));
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     // Until a newer moment is shown, the last row's is now and not the past.
     QTRY_VERIFY(timeline->available() && timeline->available()->end < timeline->now());
     timeline->seek(timeline->available()->end);
-    const auto* shown = s.window.findChild<SourceSwitch*>();
+    const auto* shown = s.window.findChild<ShownMoment*>();
     QTRY_VERIFY(shown->frame() && shown->frame()->origin == link::FrameOrigin::Recorded);
     const ScoreboardState past = scoreboardOf(*shown->frame());
     QCOMPARE(past.state, QStringLiteral("NO REFEREE"));

@@ -7,7 +7,7 @@
 #include <ui/base/beat.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
 #include "../studio_rig.h"
@@ -78,7 +78,7 @@ class TestQuiet : public QObject {
     studio.controller.runTo(300);
     QTRY_VERIFY(studio.controller.frame() && studio.controller.frame()->snapshot.tick == 300);
     for (auto* dock : studio.window.findChildren<QDockWidget*>()) dock->show();
-    if (past) studio.window.timeline()->seek(2.0);
+    if (past) studio.window.shown()->seek(2.0);
     studio.window.field()->setFocus();
     Beat& beat = Beat::display();
     Asked asked(&studio.window);

@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QDockWidget>
+#include <QGraphicsView>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -23,7 +24,7 @@
 #include <ui/field/field_view.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "../support/menu_entry.h"
 #include "../support/mouse_wheel.h"
@@ -98,7 +99,7 @@ class TestSafeHands : public QObject {
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 120);
     QTRY_VERIFY(s.find<QPushButton>("referee READY"));
     QTest::mouseClick(s.find<QPushButton>("referee READY"), Qt::LeftButton);
-    QTRY_COMPARE(s.controller.frame()->referee->state, std::string("READY"));
+    QTRY_COMPARE(s.controller.frame()->game->state, PlayState::Ready);
     s.controller.runTo(300);
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
   }
@@ -114,7 +115,7 @@ class TestSafeHands : public QObject {
       QVERIFY2(s.menuAction(QString::fromUtf8(dialog)), dialog);
       s.menuAction(QString::fromUtf8(dialog))->trigger();
     }
-    s.window.field()->editPose(blue(1));
+    s.window.field()->editPose(inSlot(1));
     int inDialogs = 0, inDocks = 0;
     for (QWidget* top : QApplication::topLevelWidgets()) {
       if (top == &s.window || !top->isVisible()) continue;
@@ -248,7 +249,7 @@ class TestSafeHands : public QObject {
     QTRY_VERIFY(s.controller.isOpen() && s.controller.frame());
     QTRY_COMPARE(s.controller.stateHash(), hash);
     QCOMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(300));
-    QCOMPARE(s.controller.frame()->referee->state, std::string("READY"));
+    QCOMPARE(s.controller.frame()->game->state, PlayState::Ready);
     QCOMPARE(s.controller.series(), rows);
     QCOMPARE(rows->range()->begin, range->begin);
     QCOMPARE(rows->range()->end, range->end);
@@ -259,13 +260,13 @@ class TestSafeHands : public QObject {
     QVERIFY(!s.window.notices()->text().contains("Ctrl+Z brings the match back"));
     // The past can be looked at, and the game goes on from where it was.
     s.timeline()->seek(1.0);
-    QCOMPARE(s.window.findChild<SourceSwitch*>()->frame()->referee->state, std::string("INITIAL"));
+    QCOMPARE(s.window.findChild<ShownMoment*>()->frame()->game->state, PlayState::Initial);
     s.timeline()->goLive();
     s.controller.stepOnce();
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, over ? std::uint64_t(300) : 301);
     // What was done before can be undone, too, and everything is done again.
     stack->undo();
-    QTRY_COMPARE(s.controller.frame()->referee->state, std::string("INITIAL"));
+    QTRY_COMPARE(s.controller.frame()->game->state, PlayState::Initial);
     stack->redo();
     stack->redo();
     QTRY_VERIFY(s.controller.isOpen() && s.controller.frame());
@@ -286,7 +287,7 @@ class TestSafeHands : public QObject {
     s.controller.edits()->setNoise(link::noisePreset("none").value());
     QTRY_COMPARE(preset->currentText(), QStringLiteral("none"));
     QTRY_COMPARE(stack->count(), 1);
-    QCOMPARE(stack->undoText(), QStringLiteral("Change the noise"));
+    QTRY_COMPARE(stack->undoText(), QStringLiteral("Change the noise"));
     // It leaves a trace, also while the match stands still: on the timeline, in the log, in files.
     const auto marked = [&s](const char* what) {
       return std::ranges::count_if(s.timeline()->events()->events(), [what](const auto& event) {
@@ -382,6 +383,20 @@ class TestSafeHands : public QObject {
     };
     lookBack();
     QVERIFY(s.controller.edits()->isLocked());
+    // Who drags a robot there is told why it stays.
+    auto* canvas = s.window.field()->findChild<QGraphicsView*>();
+    const Pose seen = s.timeline()->frame()->robots[0].pose;
+    const QPoint from = canvas->mapFromScene(seen.position.x, seen.position.y);
+    QTest::mousePress(canvas->viewport(), Qt::LeftButton, {}, from);
+    for (const int step : {10, 30, 60}) {
+      QMouseEvent move(QEvent::MouseMove, from + QPoint(step, 0),
+                       canvas->viewport()->mapToGlobal(from + QPoint(step, 0)), Qt::NoButton,
+                       Qt::LeftButton, {});
+      QApplication::sendEvent(canvas->viewport(), &move);
+    }
+    QTest::mouseRelease(canvas->viewport(), Qt::LeftButton, {}, from + QPoint(60, 0));
+    QCOMPARE(s.window.notices()->text(), MatchEdits::lockedText());
+    QCOMPARE(s.controller.stateHash(), hash);
     // The panel shows the moment that everything else shows, and says why it is grey.
     QVERIFY2(state->text().startsWith(QStringLiteral("INITIAL")), qPrintable(state->text()));
     auto* detail =
@@ -412,7 +427,7 @@ class TestSafeHands : public QObject {
     for (const FieldKey& key : fieldKeys()) {
       for (int i = 0; i < key.count; ++i) {
         lookBack();
-        s.window.field()->select({blue(1)});
+        s.window.field()->select({inSlot(1)});
         QTest::keyClick(s.window.field()->focusProxy(), static_cast<Qt::Key>(key.key + i),
                         key.modifiers);
         if (s.controller.stateHash() != hash) qWarning() << key.shown << "acted on the match";
@@ -420,7 +435,7 @@ class TestSafeHands : public QObject {
       }
     }
     lookBack();
-    s.window.field()->select({blue(1)});
+    s.window.field()->select({inSlot(1)});
     for (const char* text : {"Seed", "Run robot processes", "Match number", "Reset score", "Speed",
                              "Game clock runs", "Undo"}) {
       QAction* action = s.menuAction(QString::fromUtf8(text));
@@ -448,16 +463,18 @@ class TestSafeHands : public QObject {
     QVERIFY2(s.window.notices()->text().contains(MatchEdits::lockedText()),
              qPrintable(s.window.notices()->text()));
 
-    // At now the same controls work.
+    // At now the same controls work. The keys may have raised another panel.
+    s.find<QDockWidget>("referee")->show();
+    s.find<QDockWidget>("referee")->raise();
     s.timeline()->goLive();
-    QVERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
+    QTRY_VERIFY2(state->text().startsWith(QStringLiteral("READY")), qPrintable(state->text()));
     QVERIFY(!detail->text().contains(MatchEdits::lockedText()));
     QTRY_VERIFY(s.find<QPushButton>("referee SET"));
     QTest::mouseClick(s.find<QPushButton>("referee SET"), Qt::LeftButton);
     QTRY_VERIFY(state->text().startsWith(QStringLiteral("SET")));
     QTRY_COMPARE(stack->count(), steps + 1);
     QVERIFY(s.menuAction(QStringLiteral("Reset score"))->isEnabled());
-    s.window.field()->select({blue(1)});
+    s.window.field()->select({inSlot(1)});
     const std::size_t robots = s.controller.frame()->robots.size();
     s.menuAction(QStringLiteral("Delete selected robots"))->trigger();
     QTRY_COMPARE(s.controller.frame()->robots.size(), robots - 1);
@@ -473,7 +490,7 @@ class TestSafeHands : public QObject {
     QVERIFY(panel->isFloating() && dock->window() != &s.window);
     QTRY_VERIFY(dock->cards()[1]->geometry().top() > dock->cards()[0]->geometry().bottom());
     RobotCard* card = dock->cards()[0];
-    const RobotKey first = card->state().id, second = dock->cards()[1]->state().id;
+    const RobotUid first = card->state().id, second = dock->cards()[1]->state().id;
     const QPoint grip(60, 30);
     const QPoint away = card->mapFromGlobal(panel->frameGeometry().topRight() + QPoint(90, 60));
     QTest::mousePress(card, Qt::LeftButton, {}, grip);

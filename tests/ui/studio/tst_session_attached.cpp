@@ -165,20 +165,20 @@ class TestSessionAttached : public QObject {
 
     // Looking back in Live, while its program goes on.
     segment.walk(40);
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     // The newest one is not the past, and it may have come after the end of the file.
     seen.pop_back();
     for (const FramePtr& frame : seen) {
       timeline->seek(frame->snapshot.time);
       QVERIFY(timeline->isLookingBack());
-      const QString found = differenceOf(frame, s.window.live()->frameAt(timeline->shownTime()));
+      const QString found = differenceOf(frame, s.window.live()->frameAt(timeline->time()));
       QVERIFY2(found.isEmpty(), qPrintable(found));
     }
     timeline->goLive();
 
     const QString path = saved.at(0).at(0).toString();
     s.window.openSession(path);
-    QTRY_VERIFY(timeline->isRecording());
+    QTRY_VERIFY(!timeline->kind().hasPresent);
     for (const FramePtr& frame : seen) {
       timeline->seek(frame->snapshot.time);
       const auto isThere = [&] {
@@ -232,9 +232,9 @@ class TestSessionAttached : public QObject {
     QTRY_COMPARE(saved.size(), 1);
 
     s.window.openSession(saved.at(0).at(0).toString());
-    QTRY_VERIFY(s.window.timeline()->isRecording());
-    s.window.timeline()->seek(s.window.timeline()->available()->end);
-    const auto whole = *s.window.timeline()->available();
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    s.window.shown()->seek(s.window.shown()->available()->end);
+    const auto whole = *s.window.shown()->available();
     plots->time()->setRange({whole.begin, whole.end + 0.1});
     QTRY_COMPARE_WITH_TIMEOUT(tops(), expected, 20'000);
     QCOMPARE(plots->layoutSpec().pages[0].panes[0].curves[1].expression, expression.expression);
@@ -269,7 +269,8 @@ class TestSessionAttached : public QObject {
 
     QAction* forget = nullptr;
     const auto isOffered = [&] {
-      s.window.field()->select({receivedAs(2)});  // not before the field has it, too
+      s.window.field()->select(
+          {uidIn(*s.window.live()->frame(), receivedAs(2))});  // not before the field has it, too
       const QAction* robots = menu_entry::downFrom(s.window.menuBar(), {"Robots"});
       forget = robots->menu()->findChild<QAction*>(QStringLiteral("forgetRobot"));
       return forget != nullptr;

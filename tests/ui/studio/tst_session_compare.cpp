@@ -16,8 +16,9 @@
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
-#include <ui/sources/playback.h>
+#include <ui/sources/linked_time.h>
 
+#include "../../support/group_facts.h"
 #include "chart_pane.h"
 #include "compared_item.h"
 #include "lane_pane.h"
@@ -65,7 +66,7 @@ QString longSession(const QTemporaryDir& folder) {
           {"DIST", ColumnType::Float64, "cm", "", ColumnKind::Number, {}},
           {"X", ColumnType::Float64, "m", "", ColumnKind::Number, {}},
           {"Y", ColumnType::Float64, "m", "", ColumnKind::Number, {}}},
-         {{"robot", std::to_string(number)}, {"team", "blue"}}}));
+         telemetry::facts({{"robot", std::to_string(number)}, {"team", "blue"}})}));
   }
   for (int row = 0; row < static_cast<int>(longSeconds * rowsPerSecond); ++row) {
     const std::uint32_t words[] = {static_cast<std::uint32_t>(row / 150 % 2)};
@@ -102,7 +103,7 @@ QString liveSession(const QTemporaryDir& folder) {
                      false,
                      text});
     }
-    (void)pipeline.frame(now);
+    (void)pipeline.advance(now);
   }
   return (*recorder)->finish() ? path : QString();
 }
@@ -161,11 +162,11 @@ class TestSessionCompare : public QObject {
     // In Simulate: the match has gone on to where the session begins, and on.
     compared->open(path);
     QTRY_COMPARE(changed.size(), 1);
-    QVERIFY(!s.window.timeline()->isRecording());
+    QVERIFY(s.window.shown()->kind().hasPresent);
     QVERIFY(strip->comparedRect().isValid());
-    s.window.timeline()->seek(12.0);
+    s.window.shown()->seek(12.0);
     QTRY_COMPARE(ghosts(), 6);
-    s.window.timeline()->seek(2.0);
+    s.window.shown()->seek(2.0);
     QTRY_COMPARE(ghosts(), 0);
     // By events: what stands at 11 s there stands at 3 s here.
     compared->alignThere(11.0);
@@ -178,8 +179,8 @@ class TestSessionCompare : public QObject {
     // In Replay, of itself: ghosts stand where the robots stand.
     compared->alignByTime();
     s.window.openSession(path);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
-    s.window.timeline()->seek(11.0);
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    s.window.shown()->seek(11.0);
     QTRY_COMPARE(ghosts(), 6);
     // In Live there is nothing at these times; nothing breaks.
     s.window.showSource(SourceKind::Live);
@@ -192,6 +193,31 @@ class TestSessionCompare : public QObject {
     QVERIFY(!strip->comparedRect().isValid());
   }
 
+  /// The plots kept the window of the session before, where the new one has nothing, and the
+  /// comparison belonged to it.
+  void anotherSessionBeginsAnew() {
+    const QTemporaryDir folder;
+    Studio s(0);
+    auto* time = s.window.findChild<LinkedTime*>();
+    s.window.openSession(longSession(folder));
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    const QString live = liveSession(folder);
+    s.window.compared()->open(live);
+    QTRY_VERIFY(s.window.compared()->isOn());
+    time->setRange({600.0, 610.0});
+    QVERIFY(!time->isFollowing());
+    s.window.openSession(live);
+    QTRY_COMPARE(s.window.replay()->path(), live);
+    QVERIFY(!s.window.compared()->isOn());
+    QVERIFY(time->isFollowing());
+    QVERIFY(time->range().begin < 30.0);
+    // Also where both have something.
+    time->setRange({3.0, 4.0});
+    s.window.openSession(folder.filePath(QStringLiteral("long.mcap")));
+    QTRY_VERIFY(s.window.replay()->path() != live);
+    QVERIFY(time->isFollowing());
+  }
+
   void eventsOfTheTimelineAreAlignedFromItsMenu() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
@@ -199,8 +225,8 @@ class TestSessionCompare : public QObject {
     QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
     s.window.compared()->open(path);
     QTRY_COMPARE(changed.size(), 1);
-    s.window.timeline()->seek(2.0);
-    s.window.timeline()->addBookmark(QStringLiteral("mine"));
+    s.window.shown()->seek(2.0);
+    s.window.shown()->addBookmark(QStringLiteral("mine"));
     auto* strip = s.window.findChild<TimelineStrip*>();
     const auto align = [&](QPoint at) {
       bool found = false;
@@ -246,7 +272,7 @@ class TestSessionCompare : public QObject {
     plots->plotVariables({QStringLiteral("B1/TRUE_X")});
     s.window.compared()->open(path);
     QTRY_VERIFY(s.window.compared()->isOn());
-    s.window.timeline()->seek(12.0);
+    s.window.shown()->seek(12.0);
     plots->time()->setRange({10.5, 14.5});
     auto* pane = plots->findChild<ChartPane*>();
     QVERIFY(pane != nullptr);
@@ -285,7 +311,7 @@ class TestSessionCompare : public QObject {
     plots->setLayoutSpec({{PageSpec{"one", {chart, lane, xy}}}, 0});
     s.window.compared()->open(path);
     QTRY_VERIFY(s.window.compared()->isOn());
-    s.window.timeline()->seek(12.0);
+    s.window.shown()->seek(12.0);
     plots->time()->setRange({10.5, 14.5});
     const auto* charts = plots->findChild<ChartPane*>();
     const auto* lanes = plots->findChild<LanePane*>();
@@ -362,9 +388,9 @@ class TestSessionCompare : public QObject {
         const QPoint at(qRound(strip->axis().pixel(time)), strip->bandRect().center().y());
         QTest::mouseClick(strip, Qt::LeftButton, {}, at);
       }
-      const double shown = pages.window.timeline()->shownTime();
+      const double shown = pages.window.shown()->time();
       QVERIFY2(std::abs(shown - time) < 5.0, qPrintable(QString::number(shown)));
-      fits.window.timeline()->seek(shown);
+      fits.window.shown()->seek(shown);
       QTRY_VERIFY2(picture(pages) == picture(fits), qPrintable(QString::number(time)));
       // Not only the same, but the rows of the file.
       const auto row = static_cast<int>(std::floor(shown * rowsPerSecond + 1e-6));
@@ -378,7 +404,7 @@ class TestSessionCompare : public QObject {
     pages.window.findChild<PlotsDock*>()->time()->setRange({0.0, longSeconds});
     QTRY_VERIFY(!pane->traces()[0].exact && pane->traces()[0].columns.size() > 100);
     // Moments are read all the same.
-    pages.window.timeline()->seek(456.0);
+    pages.window.shown()->seek(456.0);
     QTRY_COMPARE(legend->entries().value(0).value, valueText(distanceIn(456 * 50)));
   }
 
@@ -417,9 +443,9 @@ class TestSessionCompare : public QObject {
     const QString path = s.recorded(300);
     QVERIFY(!path.isEmpty());
     s.window.openSession(path);
-    QTRY_VERIFY(s.window.timeline()->isRecording() && s.window.replay()->loaded() == 1.0);
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent && s.window.replay()->loaded() == 1.0);
     session_rig::closeNotice(s.window);
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     auto* plots = s.window.findChild<PlotsDock*>();
     auto* strip = s.window.findChild<TimelineStrip*>();
     const auto press = [&s](int key, Qt::KeyboardModifiers keys = {}) {
@@ -466,11 +492,11 @@ class TestSessionCompare : public QObject {
       press(Qt::Key_N);
     } else {
       press(Qt::Key_Space);
-      QTRY_VERIFY(timeline->shownTime() > 11.4);
+      QTRY_VERIFY(timeline->time() > 11.4);
       press(Qt::Key_Space);
-      QVERIFY(timeline->playback()->isPaused());
+      QVERIFY(timeline->isPaused());
     }
-    const double time = timeline->shownTime();
+    const double time = timeline->time();
     QVERIFY2(time != 11.0, qPrintable(QString::number(time)));
     s.window.field()->setFocus();
     // Once what is read on other threads has come.
@@ -496,7 +522,7 @@ class TestSessionCompare : public QObject {
     s.window.openSession(liveSession(files));
     QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() == 1.0);
     session_rig::closeNotice(s.window);
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     const auto pictureAt = [&](double time) {
       timeline->seek(time);
       const auto arrived = [&] {

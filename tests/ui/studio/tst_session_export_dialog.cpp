@@ -102,12 +102,12 @@ class TestSessionExportDialog : public QObject {
       QVERIFY(!image.isNull());
       QVERIFY(isAt(image, is) && !isAt(image, was));
     }
-    s.window.timeline()->seek(2.0);
+    s.window.shown()->seek(2.0);
     for (const QImage& image : pictures("past")) {
       QVERIFY(!image.isNull());
       QVERIFY(isAt(image, was) && !isAt(image, is));
     }
-    s.window.timeline()->goLive();
+    s.window.shown()->goLive();
     for (const QImage& image : pictures("again")) QVERIFY(isAt(image, is) && !isAt(image, was));
   }
 
@@ -141,7 +141,7 @@ class TestSessionExportDialog : public QObject {
       const QString session = s.recorded(139);
       QVERIFY(!session.isEmpty());
       s.window.openSession(session);
-      QTRY_VERIFY(s.window.timeline()->isRecording());
+      QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     }
     ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
@@ -229,9 +229,13 @@ class TestSessionExportDialog : public QObject {
            return PlotPresets::writeFile(path, plots->layoutSpec()).has_value();
          }},
         {"plots.png",
-         [&](const QString& path) { return savePlotPng(*plots->currentPage(), path).has_value(); }},
+         [&](const QString& path) {
+           return savePlotPicture(plotPng(*plots->currentPage()), path).has_value();
+         }},
         {"plots.svg",
-         [&](const QString& path) { return savePlotSvg(*plots->currentPage(), path).has_value(); }},
+         [&](const QString& path) {
+           return savePlotPicture(plotSvg(*plots->currentPage()), path).has_value();
+         }},
         {"plots.csv",
          [&](const QString& path) {
            return savePlotCsv(plots->currentPage()->panes(), {0.0, 5.0}, path).has_value();
@@ -290,7 +294,9 @@ class TestSessionExportDialog : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
     ExportDialog* dialog = openExport(s);
     choose(dialog, QStringLiteral("(MP4)"));
-    dialog->setVideoProgram(QStringLiteral("no-such-ffmpeg"));
+    const QByteArray path = qgetenv("PATH");
+    const auto again = qScopeGuard([&path] { qputenv("PATH", path); });
+    qputenv("PATH", s.folder.path().toUtf8());
     QSignalSpy failed(dialog, &ExportDialog::failed);
     dialog->exportTo(s.folder.filePath(QStringLiteral("out.mp4")));
     QTRY_COMPARE_WITH_TIMEOUT(failed.size(), 1, 20'000);

@@ -28,7 +28,7 @@ class TestSessionExportFull : public QObject {
     const QString session = s.recorded(60);
     QVERIFY(!session.isEmpty());
     s.window.openSession(session);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     ExportDialog* dialog = openExport(s);
     QVERIFY(dialog != nullptr);
     small(dialog);

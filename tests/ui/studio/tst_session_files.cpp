@@ -16,10 +16,9 @@
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -57,6 +56,44 @@ class TestSessionFiles : public QObject {
     QFile file(first);
     QVERIFY(file.open(QIODevice::WriteOnly));
     QVERIFY(sessionFileName(QDir(folder.path()), QStringLiteral("a/b:c"), when) != first);
+    const QString title = QStringLiteral("Kick-off: 4 against 4");
+    QVERIFY(sessionFileName(QDir(folder.path()), title, when)
+                .endsWith(QStringLiteral("/Kick-off 4 against 4 2026-07-01 14.23.05.mcap")));
+  }
+
+  void recordingsOfOthersAreImported_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("group");
+    QTest::newRow("ROS 2") << QStringLiteral("robot_walks.mcap") << QStringLiteral("B3");
+    QTest::newRow("sqlite3") << QStringLiteral("ros2/cdr_test.db3") << QStringLiteral("test_topic");
+  }
+  void recordingsOfOthersAreImported() {
+    QFETCH(QString, file);
+    QFETCH(QString, group);
+    Studio s(0);
+    s.window.openSession(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/data/recordings/") + file);
+    QTRY_VERIFY_WITH_TIMEOUT(s.window.replay()->isOpen(), 20'000);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("was imported")), qPrintable(s.notice()));
+    const bool hasImages = file.startsWith(QStringLiteral("robot"));
+    QCOMPARE(s.notice().contains(QStringLiteral("/camera/image")), hasImages);
+    const auto groups = s.window.replay()->groups();
+    QVERIFY(std::ranges::any_of(groups, [&](const telemetry::GroupInfo& one) {
+      return QString::fromStdString(one.name) == group;
+    }));
+    QCOMPARE(s.window.shown()->source(), static_cast<FrameSource*>(s.window.replay()));
+    QVERIFY(s.window.findChild<QObject*>(QStringLiteral("importProgress")) == nullptr);
+  }
+
+  void aRecordingThatCannotBeImportedIsANotice() {
+    Studio s(0);
+    const QString path = s.folder.filePath(QStringLiteral("empty.csv"));
+    QFile file(path);
+    QVERIFY(file.open(QIODevice::WriteOnly) && file.write("\n\n") == 2);
+    file.close();
+    s.window.openSession(path);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("Could not import empty.csv")),
+                 qPrintable(s.notice()));
+    QVERIFY(!s.window.replay()->isOpen());
   }
 
   void aFileThatIsNoSessionIsANotice_data() {
@@ -102,6 +139,45 @@ class TestSessionFiles : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(opened.size(), 2, 20'000);
     QVERIFY(!s.window.replay()->isBroken());
     QVERIFY(s.window.replay()->path().contains(QStringLiteral("repaired")));
+  }
+
+  void aFileThatIsBeingRecordedIsOpenedAsSuch() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    s.window.recording()->start();
+    const QString path = s.window.recording()->path();
+    s.controller.runTo(s.controller.frame()->snapshot.tick + 1200);
+    QTRY_VERIFY_WITH_TIMEOUT(QFileInfo(path).size() > 50'000, 20'000);
+    while (!s.notice().isEmpty()) closeNotice(s.window);
+    QSignalSpy opened(s.window.replay(), &ReplayController::opened);
+    s.window.openSession(path);
+    QTRY_COMPARE(opened.size(), 1);
+    QTRY_VERIFY2(s.notice().contains(QStringLiteral("still being recorded")),
+                 qPrintable(s.notice()));
+    QVERIFY(!s.window.replay()->isBroken() && s.window.replay()->isGrowing());
+    for (auto* button : s.window.notices()->findChildren<QPushButton*>()) {
+      QVERIFY(!button->isVisible() || !button->text().contains(QStringLiteral("Repair")));
+    }
+    QVERIFY(s.window.recording()->isRecording());
+  }
+
+  void theNoticeOfAFileIsNotShownWithTheMatch() {
+    Studio s;
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
+    const QString path = s.recorded(300);
+    QVERIFY(!path.isEmpty());
+    while (!s.notice().isEmpty()) closeNotice(s.window);
+    QFile file(path);
+    QVERIFY(file.resize(file.size() * 2 / 3));
+    s.window.openSession(path);
+    const auto offers = [&s] {
+      return s.notice().contains(QStringLiteral("truncated or damaged"));
+    };
+    QTRY_VERIFY2(offers(), qPrintable(s.notice()));
+    s.window.showSource(SourceKind::Simulate);
+    QVERIFY2(!offers(), qPrintable(s.notice()));
+    s.window.showSource(SourceKind::Replay);
+    QTRY_VERIFY2(offers(), qPrintable(s.notice()));
   }
 
   /// It neither stays nor comes back when what lies over it is closed.
@@ -191,7 +267,7 @@ class TestSessionFiles : public QObject {
     QTRY_VERIFY2(s.notice().contains(QStringLiteral("newer version (format 9")),
                  qPrintable(s.notice()));
     QVERIFY(s.notice().contains(QStringLiteral("/other")));
-    QCOMPARE(s.window.timeline()->events()->rowCount(), 1);
+    QCOMPARE(s.window.shown()->events()->rowCount(), 1);
   }
 
   void aSessionThatDoesNotFitIsReported() {
@@ -207,7 +283,7 @@ class TestSessionFiles : public QObject {
     QTRY_VERIFY2(s.notice().contains(QStringLiteral("does not fit into memory (1 MB)")),
                  qPrintable(s.notice()));
     // What is not in memory comes from the file.
-    s.window.timeline()->seek(10.5);
+    s.window.shown()->seek(10.5);
     QTRY_COMPARE(s.window.replay()->frame()->snapshot.tick, std::uint64_t(630));
   }
 

@@ -124,7 +124,7 @@ class TestSessionLive : public QObject {
     const auto& groups = session->groups();
     session->rows({-1e9, 1e9}, {}, [&](telemetry::GroupId id, const telemetry::RowView& row) {
       const telemetry::GroupInfo& info = groups[id].info;
-      if (info.name != "Robot 1" || info.attributes.contains("link")) return true;
+      if (info.name != "Robot 1" || !factsOf(info).linkOf.empty()) return true;
       const auto place = static_cast<int>(valueOf(info, row, columnOf(info, "LOCALIZATION_X")));
       const auto found = std::ranges::find(places, place);
       if (found != places.end()) {
@@ -141,7 +141,7 @@ class TestSessionLive : public QObject {
     for (telemetry::GroupId id = 0; id < store.groups(); ++id) {
       const auto view = store.view(id);
       const telemetry::GroupInfo& info = view->info();
-      if (info.name != "Robot 1" || info.attributes.contains("link")) continue;
+      if (info.name != "Robot 1" || !factsOf(info).linkOf.empty()) continue;
       std::vector<telemetry::Sample> samples;
       view->samples(static_cast<std::uint32_t>(columnOf(info, "LOCALIZATION_X")), {-1e9, 1e9},
                     samples);
@@ -168,14 +168,14 @@ class TestSessionLive : public QObject {
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
     QVERIFY2(s.window.recording()->isRecording(), qPrintable(s.notice()));
     QVERIFY(talk(s, options, 10));
-    s.window.timeline()->addBookmark(QStringLiteral("live note"));
+    s.window.shown()->addBookmark(QStringLiteral("live note"));
     QTest::mouseClick(s.record(), Qt::LeftButton, {}, {8, 8});
     QTRY_COMPARE(saved.size(), 1);
     const QString path = saved.at(0).at(0).toString();
     check(path);
     s.window.openSession(path);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
-    s.window.timeline()->seek(s.window.timeline()->available()->end);
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    s.window.shown()->seek(s.window.shown()->available()->end);
     QTRY_COMPARE(s.window.replay()->frame()->robots.size(), std::size_t(2));
   }
 
@@ -187,8 +187,8 @@ class TestSessionLive : public QObject {
     QTRY_VERIFY2(saved.size() == 1, qPrintable(s.notice()));
     check(saved.at(0).at(0).toString());
     s.window.openSession(saved.at(0).at(0).toString());
-    QTRY_VERIFY(s.window.timeline()->isRecording());
-    s.window.timeline()->seek(s.window.timeline()->available()->end);
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    s.window.shown()->seek(s.window.shown()->available()->end);
     QTRY_COMPARE(s.window.replay()->frame()->robots.size(), std::size_t(2));
   }
 
@@ -199,7 +199,7 @@ class TestSessionLive : public QObject {
     const link::LiveOptions options = live_rig::options();
     QVERIFY(receive(s, options));
     LiveController* live = s.window.live();
-    Timeline* timeline = s.window.timeline();
+    ShownMoment* timeline = s.window.shown();
     const std::vector<int> steps{0, 3600, 0, -3600, 0}, places{410, 420, 430, 440, 450};
     const auto clockEvents = [&] {
       std::vector<double> times;
@@ -253,7 +253,7 @@ class TestSessionLive : public QObject {
     QCOMPARE(written.size(), noted.size());
     for (std::size_t i = 0; i < noted.size(); ++i) QVERIFY(std::abs(written[i] - noted[i]) < 1e-6);
     s.window.openSession(path);
-    QTRY_VERIFY(timeline->isRecording());
+    QTRY_VERIFY(!timeline->kind().hasPresent);
     QVERIFY(timeline->clock() && std::abs(timeline->clock()->msecsTo(began)) <= 1);
     for (std::size_t i = 0; i < places.size(); ++i) {
       timeline->seek(times[i]);
@@ -279,7 +279,7 @@ class TestSessionLive : public QObject {
     Studio second(0);
     const link::LiveOptions others = live_rig::options();
     QVERIFY(receive(second, others));
-    Timeline* timeline = second.window.timeline();
+    ShownMoment* timeline = second.window.shown();
     const auto elapsed = [&] { return timeline->available()->end - timeline->available()->begin; };
     for (int i = 0; i < 200 && elapsed() <= stoodAfter; ++i) QVERIFY(talk(second, others, 1));
     QVERIFY(elapsed() > stoodAfter);
@@ -308,7 +308,7 @@ class TestSessionLive : public QObject {
     const QString path = record(s, [&] { return talk(s, options, 10); });
     QVERIFY(!path.isEmpty());
     s.window.openSession(path);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     s.action("exportSession")->trigger();
     auto* dialog = s.window.findChild<ExportDialog*>(QStringLiteral("exportDialog"));
     QVERIFY(dialog != nullptr);
@@ -400,7 +400,7 @@ class TestSessionLive : public QObject {
     };
     // Replay.
     s.window.openSession(path);
-    QTRY_VERIFY(s.window.timeline()->isRecording());
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     const auto replayed = [&] {
       QList<QList<QByteArray>> rows;
       const auto store = s.window.replay()->series();

@@ -24,7 +24,7 @@
 #include <ui/sources/compared_session.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/replay_controller.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "../support/menu_entry.h"
 #include "live_rig.h"
@@ -135,18 +135,18 @@ void TestSituationTests::momentsOfAMatchAndOfARecordingArePlayed() {
                      ofNow.ballVelocity.y - now->snapshot.ballVelocity.y) < 1e-9);
   QVERIFY(!ofNow.settings.referee);
 
-  s.window.timeline()->seek(4.0);
-  QTRY_VERIFY(s.window.timeline()->isLookingBack());
+  s.window.shown()->seek(4.0);
+  QTRY_VERIFY(s.window.shown()->isLookingBack());
   const link::Scenario before = save("looking-back");
   QVERIFY(!standAlike(before, *now));
   QVERIFY(standAlike(before, *s.controller.frameAt(4.0)));
-  s.window.timeline()->goLive();
+  s.window.shown()->goLive();
 
   const QString session = s.recorded(60);
   QVERIFY(!session.isEmpty());
   s.window.openSession(session);
-  QTRY_VERIFY(s.window.timeline()->isRecording());
-  s.window.timeline()->seek(s.window.timeline()->available()->end);
+  QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+  s.window.shown()->seek(s.window.shown()->available()->end);
   QTRY_VERIFY(s.window.replay()->frame() && s.window.replay()->frame()->robots.size() == 6);
   QVERIFY(standAlike(save("replay"), *s.window.replay()->frame()));
 

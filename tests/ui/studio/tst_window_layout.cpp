@@ -20,7 +20,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -261,7 +261,7 @@ class TestWindowLayout : public QObject {
     QTRY_VERIFY(other->titleBarWidget()->sizeHint().height() > 0);
     QVERIFY(referee->titleBarWidget()->sizeHint().height() > 0);
     // It has a frame, by which it is told from the window.
-    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2), theme().outerEdge);
+    QTRY_COMPARE(referee->grab().toImage().pixelColor(0, referee->height() / 2), theme().innerLine);
   }
 
   void aNoticeIsAsHighAsItsText() {

@@ -24,7 +24,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -192,16 +192,16 @@ class TestWindowMatch : public QObject {
     // The cards follow a little later than the rest.
     QTRY_VERIFY2(!card().endsWith(QStringLiteral(" 0.0 m")), qPrintable(card()));
     const QString cardNow = card();
-    s.window.timeline()->seek(2.0);
+    s.window.shown()->seek(2.0);
     QCOMPARE(s.window.findChild<FieldScene*>()->frame()->snapshot.tick, std::uint64_t(120));
-    QCOMPARE(s.window.findChild<LinkedTime*>()->moment(), std::optional(2.0));
+    QCOMPARE(s.window.findChild<LinkedTime*>()->playhead(), std::optional(2.0));
     QTRY_COMPARE(tick(), QStringLiteral("120.00"));
     QTRY_VERIFY2(status().contains(QStringLiteral("tick 120")), qPrintable(status()));
     QTRY_VERIFY2(card() != cardNow, qPrintable(cardNow));  // it has walked less far
     QTest::mouseClick(s.window.findChild<QToolButton*>(QStringLiteral("now")), Qt::LeftButton);
     QTRY_COMPARE(tick(), QStringLiteral("300.00"));
     QCOMPARE(s.window.findChild<FieldScene*>()->frame()->snapshot.tick, std::uint64_t(300));
-    QVERIFY(!s.window.findChild<LinkedTime*>()->moment());
+    QVERIFY(!s.window.shown()->chosenTime());
     QTRY_COMPARE(card(), cardNow);
     QTRY_VERIFY(status().contains(QStringLiteral("tick 300")));
   }
@@ -222,7 +222,7 @@ class TestWindowMatch : public QObject {
     };
     QTRY_COMPARE(rate(), QStringLiteral("60"));
     for (int i = 1; i <= 60; ++i) {
-      s.controller.edits()->moveBall({}, {0.01 * i, 1.0});
+      s.controller.edits()->moveBall({0.01 * i, 1.0});
       s.controller.settle();
     }
     QTRY_VERIFY(std::abs(s.controller.frame()->snapshot.ball.x - 0.6) < 1e-9);
@@ -312,6 +312,24 @@ class TestWindowMatch : public QObject {
     QTRY_VERIFY(order.raised > 0);
   }
 
+  void theStatusSaysWhatIsShownAndWhatGoesOn() {
+    Studio s(m_settings.get());
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    s.controller.runTo(600);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 600);
+    const auto* pace = s.window.findChild<QLabel*>(QStringLiteral("statusPace"));
+    QTRY_COMPARE(pace->text(), QStringLiteral("Simulation paused"));
+    auto* timeline = s.window.shown();
+    timeline->seek(4.0);
+    QTRY_COMPARE(pace->text(), QStringLiteral("Viewing 00:04, the match is paused"));
+    s.controller.setPaused(false);
+    QTRY_COMPARE(pace->text(), QStringLiteral("Viewing 00:04, the match goes on at ×1.00"));
+    timeline->goLive();
+    QTRY_VERIFY2(pace->text().startsWith(QStringLiteral("Simulation ")) &&
+                     pace->text().endsWith(QStringLiteral("/s, ×1.00")),
+                 qPrintable(pace->text()));
+  }
+
   void recentScenariosAndSessionsAreOffered() {
     const QString there = m_folder.filePath(QStringLiteral("semifinal.mcap"));
     QFile file(there);
@@ -350,7 +368,7 @@ class TestWindowMatch : public QObject {
     QTRY_VERIFY(!s.controller.frame()->paused);
     QCoreApplication::processEvents();
     QCOMPARE(places(), before);
-    s.window.timeline()->seek(1.0);
+    s.window.shown()->seek(1.0);
     QCoreApplication::processEvents();
     QCOMPARE(places(), before);
   }

@@ -11,6 +11,7 @@
 #include <QMenuBar>
 #include <QPushButton>
 #include <QStatusBar>
+#include <QTabBar>
 #include <QTableView>
 #include <QTextEdit>
 #include <QToolButton>
@@ -24,7 +25,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -60,7 +61,7 @@ class TestWindowWork : public QObject {
     s.controller.edits()->writeVariable(RobotId{3}, QStringLiteral("DECISION_ACTION_A"), 5);
     QVERIFY2(s.window.notices()->text().contains(QStringLiteral("viewing the past")),
              qPrintable(s.window.notices()->text()));
-    QCOMPARE(s.controller.edits()->undoStack()->count(), 1);
+    QTRY_COMPARE(s.controller.edits()->undoStack()->count(), 1);
     // Back at now the notice has no cause any more, and edits reach the match.
     QTest::mouseClick(s.find<QToolButton>("now"), Qt::LeftButton);
     QVERIFY(s.window.notices()->text().isEmpty());
@@ -87,7 +88,7 @@ class TestWindowWork : public QObject {
     table->scrollTo(row(QStringLiteral("here")));
     QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
                       table->visualRect(row(QStringLiteral("here"))).center());
-    QCOMPARE(s.timeline()->shownTime(), 2.0);
+    QCOMPARE(s.timeline()->time(), 2.0);
     QCOMPARE(row(QStringLiteral("later")).data(Qt::ForegroundRole).value<QColor>(),
              theme().disabledText);
     s.timeline()->goLive();
@@ -115,7 +116,7 @@ class TestWindowWork : public QObject {
     s.timeline()->addBookmark(QStringLiteral("odd sock"));
     s.timeline()->seek(3.0);
     find(QStringLiteral("odd sock"));
-    QCOMPARE(s.timeline()->shownTime(), 1.0);
+    QCOMPARE(s.timeline()->time(), 1.0);
     s.timeline()->goLive();
     find(QStringLiteral("b2 vision_ball_angle"));
     const auto* plots = s.window.findChild<PlotsDock*>();
@@ -215,6 +216,59 @@ class TestWindowWork : public QObject {
              qPrintable(QString::number(words->height())));
     QCOMPARE(words->toolTip(), words->toPlainText() == text ? QString() : text);
     QVERIFY(words->document()->size().width() <= words->width() + 1.0);
+  }
+
+  /// Whatever is brought to the front below or beside it.
+  void aNoticeStaysInFront() {
+    Studio s({960, 600});
+    s.play();
+    NoticeBar* bar = s.window.notices();
+    bool repaired = false;
+    bar->show({QStringLiteral("a")},
+              QStringLiteral("The recording of the semifinal was truncated when the power failed "
+                             "on the field. What was written can be read and repaired."),
+              {{QStringLiteral("Repair"), [&] { repaired = true; }}});
+    const auto* button = bar->findChild<QPushButton*>();
+    QVERIFY(button);
+    const auto inFront = [&] {
+      const QPoint at = button->mapTo(&s.window, button->rect().center());
+      return s.window.childAt(at) == button;
+    };
+    QTRY_VERIFY(inFront());
+    int tabs = 0;
+    for (auto* bars : s.window.findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+      for (int i = 0; bars->isVisible() && i < bars->count(); ++i, ++tabs) {
+        QTest::mouseClick(bars, Qt::LeftButton, {}, bars->tabRect(i).center());
+        QCoreApplication::processEvents();
+        QVERIFY2(inFront(), qPrintable(bars->tabText(i)));
+      }
+    }
+    QVERIFY(tabs > 1);
+    for (auto* panel : s.window.findChildren<QDockWidget*>()) panel->raise();
+    s.window.centralWidget()->raise();
+    QTRY_VERIFY(inFront());
+    QTest::mouseClick(s.window.childAt(button->mapTo(&s.window, button->rect().center())),
+                      Qt::LeftButton);
+    QVERIFY(repaired);
+  }
+
+  void moreNoticesAreShownInTurn() {
+    Studio s;
+    s.play();
+    NoticeBar* bar = s.window.notices();
+    for (const char* text : {"one", "two", "three"}) {
+      bar->show({QLatin1String(text)}, QLatin1String(text));
+    }
+    auto* more = bar->findChild<QToolButton*>(QStringLiteral("moreNotices"));
+    QCOMPARE(more->text(), QStringLiteral("2 more"));
+    for (const char* text : {"two", "one", "three"}) {
+      QTest::mouseClick(more, Qt::LeftButton);
+      QCOMPARE(bar->text(), QLatin1String(text));
+      QCOMPARE(more->text(), QStringLiteral("2 more"));
+    }
+    bar->settle(QStringLiteral("one"));
+    bar->settle(QStringLiteral("two"));
+    QVERIFY(!more->isVisible());
   }
 
   void aRefusalLeavesWithTheNextOrder() {
@@ -373,7 +427,8 @@ class TestWindowWork : public QObject {
     s.play();
     s.menuAction(QStringLiteral("A goal"))->trigger();
     auto* frame = s.find<QWidget>("alarmFrame");
-    link::MatchEvent goal{link::MatchEventKind::Goal, 1.0, {}, {}, link::Side::Right, 0, "red"};
+    link::MatchEvent goal{
+        link::MatchEventKind::Goal, 1.0, {}, {}, link::Side::Right, 0, TeamColor::Red};
     emit s.controller.eventsReceived({goal});
     QVERIFY(frame->isVisible());
     QCOMPARE(frame->accessibleName(), QString::fromStdString(sentenceOf(goal)));
@@ -408,7 +463,7 @@ class TestWindowWork : public QObject {
     Studio s;
     s.play();
     auto* alarms = s.window.findChild<Alarms*>();
-    link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, blue(1), "B1"};
+    link::MatchEvent low{link::MatchEventKind::BatteryLow, 1.0, link::uidOf(blue(1)), "B1"};
     emit s.controller.eventsReceived({low});
     QVERIFY(!alarms->isRaised());
     s.menuAction(QStringLiteral("A robot's battery is low"))->trigger();

@@ -11,7 +11,7 @@
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
@@ -37,7 +37,7 @@ struct Studio : studio_rig::Studio {
   Widget* find(const char* name) {
     return window.findChild<Widget*>(QLatin1String(name));
   }
-  Timeline* timeline() { return window.findChild<Timeline*>(); }
+  ShownMoment* timeline() { return window.shown(); }
   QAction* menuAction(const QString& text) {
     for (const MenuAction& each : menuActions(*window.menuBar())) {
       if (each.text.startsWith(text)) return each.action;

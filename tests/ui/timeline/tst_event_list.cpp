@@ -6,7 +6,6 @@
 
 #include <ui/base/time_axis.h>
 #include <ui/sources/event_list.h>
-#include <ui/sources/playback.h>
 
 #include "event_marks.h"
 
@@ -235,75 +234,6 @@ class TestEventList : public QObject {
     const auto marks =
         layOutMarks(list.events(), {{0, 7400}, 0, 1900}, {10, 8}, QFontMetrics{QFont()});
     QVERIFY(marks.size() <= 191);
-  }
-
-  void playbackMovesAtItsSpeed() {
-    Playback play;
-    QVERIFY(!play.isAvailable());
-    play.setPaused(false);
-    QVERIFY(play.isPaused());
-    play.setRange({{10, 20}});
-    QCOMPARE(play.position(), 10.0);
-    play.setSpeed(4);
-    play.setPaused(false);
-    play.advance(0.5);
-    QCOMPARE(play.position(), 12.0);
-    QSignalSpy ends(&play, &Playback::reachedEnd);
-    play.advance(100);
-    QCOMPARE(play.position(), 20.0);
-    QVERIFY(play.isPaused());
-    QCOMPARE(ends.size(), 1);
-    // From the very end it begins again.
-    play.setPaused(false);
-    QCOMPARE(play.position(), 10.0);
-    play.setSpeed(1000);
-    QCOMPARE(play.speed(), 16.0);
-    play.setSpeed(0.0001);
-    QCOMPARE(play.speed(), 0.1);
-    play.setSpeed(double(NAN));
-    QCOMPARE(play.speed(), 0.1);
-  }
-
-  void playbackLoops() {
-    Playback play;
-    play.setRange({{0, 60}});
-    play.setLoop({{10, 12}});
-    play.seek(11);
-    play.setPaused(false);
-    play.advance(1.25);
-    QCOMPARE(play.position(), 10.25);
-    play.advance(0.5);
-    QCOMPARE(play.position(), 10.75);
-    play.setLoop({{5, 5}});
-    QVERIFY(!play.loop());
-  }
-
-  void playbackStepsFromTickToTick() {
-    Playback play;
-    play.setRange({{0, 10}});
-    play.setTickRate(60);
-    play.seek(1.003);
-    play.setPaused(false);
-    play.step(1);
-    QVERIFY(play.isPaused());
-    QCOMPARE(play.position(), 61.0 / 60);
-    play.step(-2);
-    QCOMPARE(play.position(), 59.0 / 60);
-    play.seek(0);
-    play.step(-1);
-    QCOMPARE(play.position(), 0.0);
-  }
-
-  void whatHasLeftMemoryCannotBeShown() {
-    Playback play;
-    play.setRange({{0, 10}});
-    play.seek(2);
-    QSignalSpy moves(&play, &Playback::positionChanged);
-    play.setRange({{5, 15}});
-    QCOMPARE(play.position(), 5.0);
-    QCOMPARE(moves.size(), 1);
-    play.setRange({});
-    QVERIFY(!play.isAvailable());
   }
 };
 

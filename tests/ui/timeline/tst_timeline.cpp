@@ -9,9 +9,7 @@
 
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/playback.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
 #include <ui/timeline/timeline_dock.h>
 
@@ -53,12 +51,12 @@ class TestSource : public FrameSource {
     emit frameReceived(m_frame);
   }
   void happen(double time, link::MatchEventKind kind) {
-    link::MatchEvent event{kind, time, red(2), "R2"};
+    link::MatchEvent event{kind, time, link::uidOf(red(2)), "R2"};
     if (kind == link::MatchEventKind::Goal)
-      event = {kind, time, {}, {}, link::Side::Right, 0, "red"};
+      event = {kind, time, {}, {}, link::Side::Right, 0, TeamColor::Red};
     emit eventsReceived({event});
   }
-  SourceKind kind() const override { return SourceKind::Live; }
+  const SourceKind& kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_store; }
   QString emptyText() const override { return {}; }
@@ -72,9 +70,9 @@ class TestSource : public FrameSource {
 
 struct Bench {
   TestSource source;
-  SourceSwitch shown{&source};
-  LinkedTime plots;
-  Timeline timeline{&shown};
+  ShownMoment timeline{&source};
+  ShownMoment& shown = timeline;
+  LinkedTime plots{&timeline};
   TimelineActions actions{&timeline, &plots, nullptr, nullptr};
   QWidget window;
   QWidget* dock = nullptr;
@@ -83,7 +81,7 @@ struct Bench {
   Bench() {
     TimelineContext context;
     context.time = &plots;
-    context.timeline = &timeline;
+    context.shown = &timeline;
     context.timelineActions = &actions;
     dock = makeTimelineDock(context, &window);
     strip = dock->findChild<TimelineStrip*>();
@@ -216,7 +214,7 @@ class TestTimeline : public QObject {
     type(dialog(), typed);
     QVERIFY(dialog() == nullptr);
     QVERIFY(b.timeline.isLookingBack());
-    QCOMPARE(b.timeline.shownTime(), time);
+    QCOMPARE(b.timeline.time(), time);
   }
 
   void eventsAreMarkedAndJumpedTo() {
@@ -239,7 +237,7 @@ class TestTimeline : public QObject {
 
   void aBookmarkIsWrittenInItsPlace() {
     Bench b;
-    QSignalSpy reported(&b.timeline, &Timeline::bookmarked);
+    QSignalSpy reported(&b.timeline, &ShownMoment::bookmarked);
     b.timeline.seek(50);
     b.actions.bookmark()->trigger();
     auto* note = b.strip->findChild<QLineEdit*>(QStringLiteral("bookmarkNote"));
@@ -295,20 +293,46 @@ class TestTimeline : public QObject {
 
   void theWindowOfThePlotsIsDragged() {
     Bench b;
-    b.plots.setData(telemetry::TimeRange{0, 100});
+    b.plots.refresh();
     b.plots.setRange({40, 60});
-    QVERIFY(b.strip->windowRect());
-    b.drag(b.inBand(50), b.inBand(30));
+    QVERIFY(b.strip->rangeHandle());
+    const auto onHandle = [&b](double time) {
+      return QPoint(qRound(b.strip->axis().pixel(time)),
+                    qRound(b.strip->rangeHandle()->center().y()));
+    };
+    QVERIFY(b.strip->rangeHandle()->top() > b.strip->bandRect().bottom());
+    b.drag(onHandle(50), onHandle(30));
     QVERIFY(std::abs(b.plots.range().begin - 20) < 2 * onePixel);
     QVERIFY(std::abs(b.plots.span() - 20) < 1e-6);
     // By its edge it becomes longer.
-    b.drag(b.inBand(b.plots.range().end), b.inBand(70));
+    b.drag(onHandle(b.plots.range().end), onHandle(70));
     QVERIFY(std::abs(b.plots.range().end - 70) < 3 * onePixel);
     QVERIFY(std::abs(b.plots.range().begin - 20) < 2 * onePixel);
     QVERIFY(!b.timeline.isLookingBack());
-    // A click in it looks back.
-    QTest::mouseClick(b.strip, Qt::LeftButton, {}, b.inBand(45));
+    // Over its other end it does not collapse.
+    b.drag(onHandle(b.plots.range().end), onHandle(5));
+    QVERIFY(b.plots.span() * b.strip->axis().width / 100 > 8);
+    b.plots.setRange({50.0, 50.01});
+    QVERIFY(b.strip->rangeHandle()->width() >= 20);
+    b.drag(onHandle(50.0), onHandle(60));
+    QVERIFY(std::abs(b.plots.range().begin - 60) < 2 * onePixel);
+  }
+
+  /// The band is time, also where the playhead stands and where the plots' window is.
+  void theBandLooksBackEverywhere() {
+    Bench b;
+    b.plots.refresh();
+    b.plots.setRange({85, 100});
+    const auto before = b.plots.range();
+    b.drag(b.inBand(100), b.inBand(70));
     QVERIFY(b.timeline.isLookingBack());
+    QVERIFY(std::abs(b.x() - 70) <= onePixel);
+    for (const double from : {70.0, 85.0, 92.0, 99.8}) {
+      b.timeline.seek(from);
+      b.drag(b.inBand(from), b.inBand(40));
+      QVERIFY(std::abs(b.x() - 40) <= onePixel);
+      QCOMPARE(b.plots.range().end - b.plots.range().begin, before.end - before.begin);
+    }
   }
 
   void aRangeIsChosenAndLooped() {
@@ -320,11 +344,11 @@ class TestTimeline : public QObject {
     b.actions.loop()->trigger();
     QVERIFY(b.timeline.isLooping());
     QVERIFY(std::abs(b.x() - 20) <= onePixel);
-    b.timeline.playback()->setPaused(false);
-    b.timeline.playback()->setSpeed(16);
-    b.timeline.playback()->advance(0.5);
+    b.timeline.setPaused(false);
+    b.timeline.setSpeed(16);
+    b.timeline.advance(0.5);
     QVERIFY(b.x() > 27 && b.x() < 29);
-    b.timeline.playback()->advance(0.25);
+    b.timeline.advance(0.25);
     QVERIFY2(b.x() > 21 && b.x() < 23, qPrintable(QString::number(b.x())));
     b.timeline.setSelection({});
     QVERIFY(!b.timeline.isLooping());
@@ -333,11 +357,11 @@ class TestTimeline : public QObject {
   void thePastPlaysUntilItHasCaughtUp() {
     Bench b;
     b.timeline.seek(90);
-    b.timeline.playback()->setSpeed(2);
-    b.timeline.playback()->setPaused(false);
-    b.timeline.playback()->advance(1);
+    b.timeline.setSpeed(2);
+    b.timeline.setPaused(false);
+    b.timeline.advance(1);
     QCOMPARE(b.x(), 92.0);
-    b.timeline.playback()->advance(10);
+    b.timeline.advance(10);
     QVERIFY(!b.timeline.isLookingBack());
     QCOMPARE(b.x(), 100.0);
   }
@@ -406,7 +430,7 @@ class TestTimeline : public QObject {
   void eventsOfASourceThatIsNotShownAreKept() {
     Bench b;
     TestSource other;
-    b.timeline.watch(&other);
+    b.timeline.add(&other);
     b.shown.choose(&other);
     QCOMPARE(b.timeline.events()->rowCount(), 0);
     b.source.happen(70, link::MatchEventKind::Kick);

@@ -10,6 +10,7 @@
 
 #include <ui/sources/match_memory.h>
 
+#include "../../support/group_facts.h"
 #include "../support/robot_keys.h"
 #include "variables_bench.h"
 #include "variables_delegate.h"
@@ -253,7 +254,7 @@ class TestVariablesDock : public QObject {
     Bench bench;
     auto store = twoRobots();
     telemetry::GroupInfo attached = robotGroup("B7", 7);
-    attached.attributes = {{"key", "700"}, {"attached", "1"}, {"number", "7"}};
+    attached.robot = telemetry::facts({{"key", "700"}, {"attached", "1"}, {"number", "7"}});
     append(*store, store->addGroup(attached), 1.0, 0, 0, 50.0F, 0.0);
     bench.hand.take(store, SourceKind::Simulate);
     auto* box = bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"));
@@ -361,7 +362,7 @@ class TestVariablesDock : public QObject {
     QTest::keyClick(bench.view, Qt::Key_Return);
     QCOMPARE(filter->variableCount(), 2);
     QVERIFY(bench.plots.plotted.isEmpty());
-    // Who looks for a name finds it; the name of a robot alone looks for no variable.
+    // The filter finds a name; the name of a robot alone finds no variable.
     auto* box = bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"));
     box->setText(QStringLiteral("lost"));
     QVERIFY(bench.at(lost).isValid());
@@ -395,7 +396,7 @@ class TestVariablesDock : public QObject {
     QTRY_VERIFY(bench.model->find(QStringLiteral("B11/TRUE_X")).isValid());
     QTRY_VERIFY(bench.controller.frame());  // rows may be there before it
     bench.press("changedOnly");
-    emit bench.selection.blackboardRequested(blue(1));
+    emit bench.selection.blackboardRequested(inSlot(1));
     QCOMPARE(bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"))->text(),
              QStringLiteral("B1/"));
     QVERIFY(bench.at(QStringLiteral("B1")).isValid());

@@ -9,6 +9,7 @@
 #include <ui/sources/live_settings.h>
 #include <ui/sources/match_memory.h>
 
+#include "../../support/group_facts.h"
 #include "../support/segment_keys.h"
 #include "catalog_choice.h"
 #include "variables_bench.h"
@@ -91,7 +92,7 @@ class TestVariablesEdit : public QObject {
     QFETCH(const QString, reason);
     auto store = twoRobots();
     telemetry::GroupInfo attached = robotGroup("key 900", 9);
-    attached.attributes = {{"key", "900"}};
+    attached.robot = telemetry::facts({{"key", "900"}});
     append(*store, store->addGroup(attached), 1.0, 0, 0, 0.0F, 0.0);
     Bench bench;
     bench.hand.take(store, kind);
@@ -124,7 +125,7 @@ class TestVariablesEdit : public QObject {
                           << "2"
                           << "0 or 1";
     QTest::newRow("words") << action << "dance"
-                           << "label of a code";
+                           << "nor a label of";
     QTest::newRow("two commas") << ballDistance << "1,234,5"
                                 << "not a number";
   }
@@ -285,7 +286,7 @@ class TestVariablesEdit : public QObject {
     QVERIFY(bench.message().contains(QStringLiteral("was removed")));
     // None of the match's robots, whatever its number is.
     const auto rows = bench.controller.memory()->series();
-    const auto& attributes = rows->view(*rows->findGroup(group.toStdString()))->info().attributes;
+    const auto attributes = attributesOf(rows->view(*rows->findGroup(group.toStdString()))->info());
     for (const char* ofRobots : {"robot", "number", "team"}) {
       QVERIFY2(!attributes.contains(ofRobots), ofRobots);
     }

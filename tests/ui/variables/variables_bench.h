@@ -24,9 +24,10 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/variables/variables_dock.h>
 
+#include "../../support/group_facts.h"
 #include "variables_filter.h"
 #include "variables_model.h"
 #include "variables_view.h"
@@ -41,7 +42,8 @@ using telemetry::ColumnType;
 inline telemetry::GroupInfo robotGroup(const std::string& name, int robot, int extra = 0) {
   telemetry::GroupInfo info;
   info.name = name;
-  info.attributes = {{"robot", std::to_string(robot)}, {"team", "blue"}, {"number", "1"}};
+  info.robot =
+      telemetry::facts({{"robot", std::to_string(robot)}, {"team", "blue"}, {"number", "1"}});
   ColumnInfo action{"DECISION_ACTION_A", ColumnType::Int32,       "",
                     "Decision",          ColumnKind::Enumeration, actionLabels()};
   info.columns = {
@@ -71,7 +73,7 @@ inline void append(telemetry::SeriesStore& store, telemetry::GroupId group, doub
 // Rows made by hand in place of a match.
 class HandSource : public FrameSource {
  public:
-  SourceKind kind() const override { return m_kind; }
+  const SourceKind& kind() const override { return m_kind; }
   FramePtr frame() const override { return {}; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_store; }
   QString emptyText() const override { return QStringLiteral("Nobody is here."); }
@@ -117,7 +119,7 @@ struct Bench {
                  QSettings::IniFormat) {
     VariablesContext context;
     context.controller = &controller;
-    context.source = &source;
+    context.shown = &source;
     context.plots = &plots;
     context.settings = &settings;
     context.selection = &selection;
@@ -161,7 +163,7 @@ struct Bench {
   QTemporaryDir folder;
   HandSource hand;
   MatchController controller;
-  SourceSwitch source;
+  ShownMoment source;
   RobotSelection selection;
   HandPlots plots;
   QSettings settings;

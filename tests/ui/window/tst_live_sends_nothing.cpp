@@ -126,13 +126,12 @@ class TestLiveSendsNothing : public QObject {
         QVERIFY(!bytes.empty() && tell(s.options.refereePort, bytes));
       }
       QTRY_COMPARE(live->frame()->robots.size(), std::size_t(6));
-      QTRY_VERIFY(live->frame()->referee);
-      live->setOurTeam(live->frame()->referee->teams[0].number);
+      QTRY_VERIFY(live->frame()->game);
+      live->setOurTeam(live->frame()->game->teamAt(false).number);
       for (QAction* action : s.window.findChildren<QAction*>()) {
         if (action->text().contains(QStringLiteral("Overlay"))) action->trigger();
       }
       auto* explorer = s.window.findChild<Explorer*>();
-      explorer->setRobot(live->frame()->robots.front().key);
       explorer->start();
       QTRY_VERIFY_WITH_TIMEOUT(explorer->found() && explorer->found()->result.rollouts > 0, 60'000);
       s.window.grab();
@@ -165,6 +164,7 @@ class TestLiveSendsNothing : public QObject {
     }
     // Off is off: the watch goes on for longer than there is between two requests.
     const LiveController* live = s.window.live();
+    QTRY_VERIFY(live->frame());
     const double off = live->frame()->snapshot.time;
     QTRY_VERIFY(live->frame()->snapshot.time > off + 1.2);
     QVERIFY(takeSent().empty());

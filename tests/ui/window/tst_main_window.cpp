@@ -10,6 +10,7 @@
 #include <QToolButton>
 #include <QUndoStack>
 #include <QtTest>
+#include <algorithm>
 
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
@@ -112,7 +113,12 @@ class TestMainWindow : public QObject {
     QVERIFY(s.window.notices()->isVisible());
     QVERIFY(s.window.notices()->text().contains(QStringLiteral("bad.json")));
     QVERIFY(s.controller.isOpen() || s.controller.isOpening());
-    QTest::mouseClick(s.window.notices()->findChild<QToolButton*>(), Qt::LeftButton);
+    const auto buttons = s.window.notices()->findChildren<QToolButton*>();
+    const auto close = std::ranges::find_if(buttons, [](const QToolButton* button) {
+      return button->toolTip() == QStringLiteral("Close this notice");
+    });
+    QVERIFY(close != buttons.end());
+    QTest::mouseClick(*close, Qt::LeftButton);
     QVERIFY(!s.window.notices()->isVisible());
   }
 
@@ -164,6 +170,7 @@ class TestMainWindow : public QObject {
     QTRY_VERIFY(s.controller.frame());
     s.controller.edits()->removeRobots({RobotId{1}});
     QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(5));
+    QTRY_VERIFY(s.controller.edits()->undoStack()->canUndo());  // the match has reported it
     s.menuAction(QStringLiteral("Undo"))->trigger();
     QTRY_COMPARE(s.controller.frame()->robots.size(), std::size_t(6));
     s.menuAction(QStringLiteral("Redo"))->trigger();
@@ -187,7 +194,7 @@ class TestMainWindow : public QObject {
     const auto cards = [&s] { return s.window.findChildren<RobotCard*>(); };
     QTRY_COMPARE(cards().size(), qsizetype(6));
     cards()[2]->setCollapsed(true);
-    const RobotKey id = cards()[2]->state().id;
+    const RobotUid id = cards()[2]->state().id;
     s.controller.edits()->removeRobots(s.controller.frame()->slotsOf({cards()[0]->state().id}));
     QTRY_COMPARE(cards().size(), qsizetype(5));
     QCOMPARE(cards()[1]->state().id, id);

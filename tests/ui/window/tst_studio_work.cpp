@@ -61,12 +61,12 @@ class TestStudioWork : public QObject {
       }
       return nullptr;
     }
-    link::ProcessSummary child(int robot, const std::string& name) {
-      link::ProcessSummary newest;
+    link::ProcessStatus child(int robot, const std::string& name) {
+      link::ProcessStatus newest;
       if (!controller.frame()) return newest;
       const link::RobotFrame* seen = controller.frame()->robot(RobotId{robot});
       if (seen == nullptr) return newest;
-      for (const link::ProcessSummary& status : seen->processes()) {
+      for (const link::ProcessStatus& status : seen->processes()) {
         if (status.name == name) newest = status;
       }
       return newest;
@@ -183,7 +183,7 @@ class TestStudioWork : public QObject {
     Studio s(options(link::Cognition::Separate));
     s.controller.open(match());
     QTRY_VERIFY_WITH_TIMEOUT(s.child(1, "communication").pid > 0, 20000);
-    const link::ProcessSummary first = s.child(1, "decision");
+    const link::ProcessStatus first = s.child(1, "decision");
     QVERIFY(first.pid > 0);
     auto* table = s.window.findChild<QTableView*>(QStringLiteral("processesTable"));
     QTRY_VERIFY(table->isVisible() && table->model()->rowCount() > 0);
@@ -307,7 +307,7 @@ class TestStudioWork : public QObject {
     QTest::mouseClick(s.noticeButton(QStringLiteral("Restart with match time")), Qt::LeftButton);
     QTRY_VERIFY(s.child(1, "decision").pid != 0 && s.child(1, "decision").pid != first);
     QCOMPARE(s.controller.speed(), link::MatchRunner::unlimitedSpeed);
-    QCOMPARE(s.child(1, "decision").whyRealTime, std::string());
+    QCOMPARE(s.child(1, "decision").clock, link::ProcessClock::Match);
   }
 
   // The match's clock cannot be loaded into it: its card says so, with the reason.

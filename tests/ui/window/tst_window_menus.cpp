@@ -14,13 +14,14 @@
 #include <QTimer>
 #include <QtTest>
 #include <algorithm>
+#include <functional>
 
 #include <robotlink/blackboard/match_number.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
 #include "studio_rig.h"
@@ -76,6 +77,51 @@ class TestWindowMenus : public QObject {
 
  private slots:
   void initTestCase() { setTheme(*qApp, ThemeChoice::Dark); }
+
+  // In the whole menu bar, whatever is shown.
+  void greyCommandsSayWhy_data() {
+    QTest::addColumn<SourceKind>("kind");
+    QTest::addColumn<bool>("past");
+    QTest::newRow("Simulate") << SourceKind::Simulate << false;
+    QTest::newRow("its past") << SourceKind::Simulate << true;
+    QTest::newRow("Live") << SourceKind::Live << false;
+    QTest::newRow("Replay") << SourceKind::Replay << false;
+  }
+  void greyCommandsSayWhy() {
+    QFETCH(const SourceKind, kind);
+    QFETCH(const bool, past);
+    Studio s;
+    s.controller.runTo(60);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 60);
+    s.window.showSource(kind);
+    if (past) s.window.shown()->seek(0.5);
+    QStringList silent;
+    int grey = 0;
+    const std::function<void(const QList<QAction*>&, const QString&)> look =
+        [&](const QList<QAction*>& actions, const QString& way) {
+          for (QAction* action : actions) {
+            const QString name = way + action->text().remove(QLatin1Char('&'));
+            // Statements, not commands.
+            if (action->isSeparator() || !action->isVisible() ||
+                action->objectName() == "matchFacts" ||
+                action->text().startsWith(QStringLiteral("No program is sending")))
+              continue;
+            if (!action->isEnabled()) {
+              ++grey;
+              if (action->toolTip() == action->iconText()) silent << name;
+            } else if (QMenu* menu = action->menu()) {
+              emit menu->aboutToShow();
+              menu->ensurePolished();  // as when it is shown
+              QVERIFY2(menu->toolTipsVisible(), qPrintable(name));
+              look(menu->actions(), name + QStringLiteral(" > "));
+              emit menu->aboutToHide();
+            }
+          }
+        };
+    look(s.window.menuBar()->actions(), {});
+    QVERIFY(grey > 0);
+    QVERIFY2(silent.isEmpty(), qPrintable(silent.join(QStringLiteral(", "))));
+  }
 
   void whoDecidesIsChosenByTheMouse() {
     int free = link::MatchNumber::most;
@@ -152,14 +198,14 @@ class TestWindowMenus : public QObject {
                 s.controller.frame()->matchNumber);
     s.controller.runTo(30);
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 30);
-    s.window.timeline()->seek(0.2);
+    s.window.shown()->seek(0.2);
     s.window.findChild<QAction*>(QStringLiteral("continueFromHere"))->trigger();
     QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(12));
-    QTRY_VERIFY2(s.window.notices()->text().contains("restart with the belief they had at"),
+    QTRY_VERIFY2(s.window.notices()->text().contains("with their beliefs of"),
                  qPrintable(s.window.notices()->text()));
     // It is of no use once the match has gone on for a while.
     const auto isGiven = [&s] {
-      return s.window.notices()->text().contains("restart with the belief they had at");
+      return s.window.notices()->text().contains("with their beliefs of");
     };
     s.controller.runTo(12 + 9 * 60);
     QTRY_COMPARE_WITH_TIMEOUT(s.controller.frame()->snapshot.tick, std::uint64_t(12 + 9 * 60),

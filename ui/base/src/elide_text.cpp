@@ -62,11 +62,53 @@ QString joined(const QList<Part>& parts) {
   return texts.join(QLatin1Char(' '));
 }
 
+/// "walk forward, fast": the last word tells it from the others of its kind, so those before it
+/// give way, the first one first. Empty for other texts, and if nothing but that word would fit.
+QString elidedBefore(const QFontMetricsF& metrics, const QString& text, double width) {
+  static const QRegularExpression qualified(QStringLiteral("^[\\p{L} ]+, \\p{L}+$"));
+  if (!qualified.match(text).hasMatch()) return {};
+  QString shown = text;
+  while (metrics.horizontalAdvance(shown) > width) {
+    const qsizetype space = shown.indexOf(QLatin1Char(' '));
+    if (space < 0 || shown[space - 1] == QLatin1Char(',')) return {};
+    shown.remove(0, space + 1);
+  }
+  return shown;
+}
+
+/// "X 117 cm, Y 32 cm": each figure needs its name, so whole items give way, the last one first.
+/// Empty for other texts, and if not even the first item fits.
+QString elidedList(const QFontMetricsF& metrics, const QString& text, double width) {
+  QStringList items = text.split(QStringLiteral(", "));
+  const auto isNamed = [](const QString& item) {
+    const QStringList words = item.split(QLatin1Char(' '), Qt::SkipEmptyParts);
+    return words.size() > 1 && !isNumber(words.first()) &&
+           std::any_of(words.begin(), words.end(), isNumber);
+  };
+  if (items.size() < 2 || !std::all_of(items.begin(), items.end(), isNamed)) return {};
+  const QString more = QStringLiteral(", …");
+  while (items.size() > 1) {
+    items.removeLast();
+    const QString shown = items.join(QStringLiteral(", ")) + more;
+    if (metrics.horizontalAdvance(shown) <= width) return shown;
+  }
+  return {};
+}
+
 }  // namespace
+
+QString elideName(const QFontMetricsF& metrics, const QString& name, double width) {
+  if (metrics.horizontalAdvance(name) <= width) return name;
+  const qsizetype prefix = name.indexOf(QLatin1Char('_'));
+  return metrics.elidedText(prefix > 0 ? name.mid(prefix + 1) : name, Qt::ElideMiddle, width);
+}
 
 QString elideText(const QFontMetricsF& metrics, const QString& text, double width) {
   const auto fits = [&](const QString& some) { return metrics.horizontalAdvance(some) <= width; };
   if (fits(text)) return text;
+  for (const auto& special : {elidedBefore, elidedList}) {
+    if (const QString shown = special(metrics, text, width); !shown.isEmpty()) return shown;
+  }
   QList<Part> parts = partsOf(text);
   const QString dots = QStringLiteral("…");
   for (qsizetype i = parts.size() - 1; i >= 0; --i) {

@@ -22,6 +22,25 @@ void paintGround(QPainter& painter, const sim::FieldSpec& field, double lineWidt
   if (shapes.circleRadius > 0) {
     painter.drawEllipse(QPointF(), shapes.circleRadius, shapes.circleRadius);
   }
+  if (shapes.arcRadius > 0) {
+    const double r = shapes.arcRadius;
+    for (const double x : {-field.halfLength(), field.halfLength()}) {
+      for (const double y : {-field.halfWidth(), field.halfWidth()}) {
+        // Qt's angles turn from +x towards −y.
+        const int start = x < 0 ? (y < 0 ? 270 : 0) : (y < 0 ? 180 : 90);
+        painter.drawArc(QRectF(x - r, y - r, 2 * r, 2 * r), start * 16, 90 * 16);
+      }
+    }
+  }
+  if (shapes.markRadius > 0) {
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme().fieldLines);
+    painter.drawEllipse(QPointF(), shapes.markRadius, shapes.markRadius);
+    for (const Point& mark : shapes.marks) {
+      painter.drawEllipse(QPointF(mark.x, mark.y), shapes.markRadius, shapes.markRadius);
+    }
+    return;
+  }
   // A cross as thick as a line would be a blot at this size.
   const double arm = std::max(0.08, 1.6 * lineWidth);
   QPen thin = painter.pen();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flat_style.h"
 
+#include <QMenu>
 #include <QPainter>
 #include <QStyleFactory>
 #include <QStyleOption>
@@ -148,6 +149,8 @@ void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionCom
                                    QPainter* painter, const QWidget* widget) const {
   if (const auto* combo = plainCombo(control, option)) {
     drawCombo(combo, painter);
+    m_comboText = combo->currentText;
+    m_comboField = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget);
     if (option->state & State_HasFocus) drawFocus(painter, option->rect);
     return;
   }
@@ -166,19 +169,26 @@ void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionCom
   QProxyStyle::drawComplexControl(control, option, painter, widget);
 }
 
-// Fusion cuts off a text that does not fit in the middle of a letter.
-void FlatStyle::drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
-                            const QWidget* widget) const {
-  const auto* combo = qstyleoption_cast<const QStyleOptionComboBox*>(option);
-  if (element != CE_ComboBoxLabel || combo == nullptr || combo->editable) {
-    QProxyStyle::drawControl(element, option, painter, widget);
-    return;
+// A text that does not fit would be cut in the middle of a letter. Which style draws a combo box's
+// label depends on the version of Qt (with a style sheet: Fusion up to 6.4, Qt's own style sheets
+// in 6.8), but each of them asks here, right after drawComplexControl().
+void FlatStyle::drawItemText(QPainter* painter, const QRect& rect, int alignment,
+                             const QPalette& palette, bool enabled, const QString& text,
+                             QPalette::ColorRole role) const {
+  QString shown = text;
+  if (text == m_comboText) {
+    const int room = std::min(rect.right(), m_comboField.right()) -
+                     std::max(rect.left(), m_comboField.left()) + 1;
+    shown = elideText(QFontMetricsF(painter->font()), text, room);
+    m_comboText.clear();
   }
-  QStyleOptionComboBox shown = *combo;
-  int room = subControlRect(CC_ComboBox, combo, SC_ComboBoxEditField, widget).width();
-  if (!combo->currentIcon.isNull()) room -= combo->iconSize.width() + textGap();
-  shown.currentText = elideText(QFontMetricsF(painter->font()), combo->currentText, room);
-  QProxyStyle::drawControl(element, &shown, painter, widget);
+  QProxyStyle::drawItemText(painter, rect, alignment, palette, enabled, shown, role);
+}
+
+// Grey entries of menus say why in their tooltips.
+void FlatStyle::polish(QWidget* widget) {
+  QProxyStyle::polish(widget);
+  if (auto* menu = qobject_cast<QMenu*>(widget)) menu->setToolTipsVisible(true);
 }
 
 // The label of a dialog's button says what it does; a coloured tick would repeat it.

@@ -17,8 +17,10 @@ class FlatStyle : public QProxyStyle {
                      const QWidget* widget) const override;
   void drawComplexControl(ComplexControl control, const QStyleOptionComplex* option,
                           QPainter* painter, const QWidget* widget) const override;
-  void drawControl(ControlElement element, const QStyleOption* option, QPainter* painter,
-                   const QWidget* widget) const override;
+  void drawItemText(QPainter* painter, const QRect& rect, int alignment, const QPalette& palette,
+                    bool enabled, const QString& text, QPalette::ColorRole role) const override;
+  using QProxyStyle::polish;
+  void polish(QWidget* widget) override;
   int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
                 QStyleHintReturn* more) const override;
   int pixelMetric(PixelMetric metric, const QStyleOption* option,
@@ -29,6 +31,11 @@ class FlatStyle : public QProxyStyle {
                        const QWidget* widget) const override;
   QSize sizeFromContents(ContentsType type, const QStyleOption* option, const QSize& contents,
                          const QWidget* widget) const override;
+
+ private:
+  /// The text of the combo box that was drawn last and the room for it; empty once it was drawn.
+  mutable QString m_comboText;
+  mutable QRect m_comboField;
 };
 
 }  // namespace pitchboard::ui

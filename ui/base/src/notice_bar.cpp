@@ -19,8 +19,8 @@ namespace pitchboard::ui {
 namespace {
 constexpr std::size_t maxNotices = 20;
 constexpr int successMilliseconds = 8000;
-constexpr int mostLines = 2;
-constexpr int leastText = 320;  // px of the mock, beside the buttons
+constexpr int maxLines = 2;
+constexpr int minText = 320;  // px of the mock, beside the buttons
 }  // namespace
 
 /// A label that also breaks inside of a word, because a path can be longer than the strip is wide.
@@ -52,9 +52,9 @@ class NoticeBar::Text : public QTextEdit {
   QSize minimumSizeHint() const override { return {scaled(this, 60), fontMetrics().lineSpacing()}; }
   bool hasHeightForWidth() const override { return true; }
   int heightForWidth(int width) const override {
-    return std::min(heightOf(m_sentence, width), mostHeight());
+    return std::min(heightOf(m_sentence, width), maxHeight());
   }
-  bool fitsInto(int width) const { return heightOf(m_sentence, width) <= mostHeight(); }
+  bool fitsInto(int width) const { return heightOf(m_sentence, width) <= maxHeight(); }
 
  protected:
   void resizeEvent(QResizeEvent* event) override {
@@ -72,8 +72,8 @@ class NoticeBar::Text : public QTextEdit {
     laidOut.setTextWidth(width);
     return static_cast<int>(std::ceil(laidOut.size().height()));
   }
-  int mostHeight() const {
-    return heightOf(QString(mostLines - 1, QLatin1Char('\n')), QWIDGETSIZE_MAX);
+  int maxHeight() const {
+    return heightOf(QString(maxLines - 1, QLatin1Char('\n')), QWIDGETSIZE_MAX);
   }
   QString shortened() const {
     const int width = viewport()->width();
@@ -84,7 +84,7 @@ class NoticeBar::Text : public QTextEdit {
     qsizetype fits = 0, tooLong = m_sentence.size();
     while (tooLong - fits > 1) {
       const qsizetype middle = (fits + tooLong) / 2;
-      (heightOf(cut(middle), width) <= mostHeight() ? fits : tooLong) = middle;
+      (heightOf(cut(middle), width) <= maxHeight() ? fits : tooLong) = middle;
     }
     const qsizetype space = m_sentence.lastIndexOf(QLatin1Char(' '), fits);
     return cut(space > fits / 2 ? space : fits);
@@ -101,12 +101,16 @@ class NoticeBar::Text : public QTextEdit {
 NoticeBar::NoticeBar(QWidget* parent)
     : QFrame(parent),
       m_text(new Text(this)),
-      m_more(new QLabel(this)),
+      m_more(new QToolButton(this)),
       m_row(new QHBoxLayout(this)),
       m_side(new QHBoxLayout),
       m_buttons(new QHBoxLayout) {
   setObjectName(QStringLiteral("noticeBar"));
+  m_more->setObjectName(QStringLiteral("moreNotices"));
   m_more->setFont(themeFont(TypeRole::Secondary));
+  m_more->setAutoRaise(true);
+  m_more->setToolTip(QStringLiteral("Show the next notice"));
+  connect(m_more, &QToolButton::clicked, this, &NoticeBar::showNext);
   m_row->setContentsMargins(scaled(this, 12), scaled(this, 6), scaled(this, 8), scaled(this, 6));
   m_row->setSpacing(scaled(this, 8));
   m_side->setSpacing(scaled(this, 8));
@@ -128,8 +132,10 @@ NoticeBar::NoticeBar(QWidget* parent)
 void NoticeBar::floatOver(QWidget* host) {
   setParent(host->window());
   m_host = host;
-  host->installEventFilter(this);
   host->window()->installEventFilter(this);
+  for (QObject* beside : host->window()->children()) {
+    if (beside != this && beside->isWidgetType()) beside->installEventFilter(this);
+  }
   place();
 }
 
@@ -144,7 +150,16 @@ bool NoticeBar::event(QEvent* event) {
 }
 
 bool NoticeBar::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize || event->type() == QEvent::Move) place();
+  const bool isHost = watched == m_host || watched == parentWidget();
+  if (isHost && (event->type() == QEvent::Resize || event->type() == QEvent::Move)) place();
+  if (event->type() == QEvent::ChildAdded && watched == parentWidget()) {
+    QObject* beside = static_cast<QChildEvent*>(event)->child();
+    if (beside != this && beside->isWidgetType()) beside->installEventFilter(this);
+  }
+  // Choosing a tab raises a panel, or the field, over everything else.
+  // Afterwards: a dock chooses its tab only while it is the topmost one.
+  if (event->type() == QEvent::ZOrderChange && watched != this && isVisible())
+    QTimer::singleShot(0, this, &QWidget::raise);
   return QFrame::eventFilter(watched, event);
 }
 
@@ -155,7 +170,7 @@ void NoticeBar::place() {
   const QMargins margins = m_row->contentsMargins();
   const int beside =
       margins.left() + m_row->spacing() + m_side->sizeHint().width() + margins.right();
-  const bool isNarrow = over.width() - beside < scaled(this, leastText);
+  const bool isNarrow = over.width() - beside < scaled(this, minText);
   if (m_text->sizeHint().width() > over.width() - beside &&
       (isNarrow || !m_text->fitsInto(over.width() - beside))) {
     over.setLeft(0);
@@ -174,7 +189,7 @@ void NoticeBar::arrange(int width) {
   const int room = width - m_row->contentsMargins().left() - m_row->contentsMargins().right();
   m_buttons->setDirection(QBoxLayout::LeftToRight);
   const int wide = m_side->sizeHint().width();
-  const int text = std::min(m_text->sizeHint().width(), scaled(this, leastText));
+  const int text = std::min(m_text->sizeHint().width(), scaled(this, minText));
   const bool below = text + m_row->spacing() + wide > room;
   m_row->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
   if (wide > room) m_buttons->setDirection(QBoxLayout::TopToBottom);
@@ -207,6 +222,12 @@ QString NoticeBar::text() const {
   return m_notices.empty() ? QString() : m_notices.front().sentence;
 }
 
+void NoticeBar::showNext() {
+  if (m_notices.size() < 2) return;
+  std::ranges::rotate(m_notices, m_notices.begin() + 1);
+  present();
+}
+
 void NoticeBar::dismiss() {
   if (!m_notices.empty()) m_notices.erase(m_notices.begin());
   present();
@@ -231,7 +252,7 @@ void NoticeBar::present() {
                                        : QString());
   m_more->setVisible(m_notices.size() > 1);
   setStyleSheet(QStringLiteral("#noticeBar { background: %1; border-bottom: 1px solid %2; }"
-                               "#noticeBar QLabel { color: %2; }"
+                               "#noticeBar #moreNotices { color: %2; }"
                                "#noticeBar QTextEdit { color: %2; background: transparent; }")
                     .arg(success ? theme().workingGround.name() : theme().warningGround.name(),
                          success ? theme().workingText.name() : theme().warningText.name()));

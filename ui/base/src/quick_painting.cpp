@@ -14,8 +14,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int mostTextLines = 4000;
-constexpr int mostCorners = 200;
+constexpr int maxTextLines = 4000;
+constexpr int maxCorners = 200;
 
 /// The properties in which the studio's fonts differ.
 struct FontKey {
@@ -50,7 +50,7 @@ struct Shaped {
 };
 
 const Shaped& shaped(const TextLineKey& key, const QFont& font) {
-  static QCache<TextLineKey, Shaped> cache(mostTextLines);
+  static QCache<TextLineKey, Shaped> cache(maxTextLines);
   if (const Shaped* known = cache.object(key)) return *known;
   auto* made = new Shaped;
   const QFontMetricsF metrics(font);
@@ -105,7 +105,7 @@ void paintBox(QPainter& painter, const QRectF& box, double radius, const QColor&
 /// A box as small as its corners allow: `side` pixels each way for a corner.
 QPixmap cornersOf(const CornerKey& key, int side, double radius, const QColor& fill,
                   const QColor& edge) {
-  static QCache<CornerKey, QPixmap> cache(mostCorners);
+  static QCache<CornerKey, QPixmap> cache(maxCorners);
   if (const QPixmap* known = cache.object(key)) return *known;
   QPixmap corners(2 * side * key.ratio, 2 * side * key.ratio);
   corners.setDevicePixelRatio(key.ratio);

@@ -11,86 +11,105 @@ namespace {
 
 const QString comma = QStringLiteral(", ");
 
-QString text(const std::string& text) {
-  return QString::fromStdString(text);
-}
-
-/// "BLUE", or the team's own name.
-QString teamOf(const link::RefereeView& view, int number) {
-  for (const link::RefereeTeamView& team : view.teams) {
-    if (team.number != number) continue;
-    if (!team.name.empty()) return text(team.name);
-    if (!team.colour.empty()) return text(team.colour).toUpper();
-  }
-  return QStringLiteral("team %1").arg(number);
-}
-
 }  // namespace
 
-QString penaltyTag(const std::string& penalty, int secondsLeft) {
-  const QString text = QString::fromStdString(penalty).section(QStringLiteral(" or "), 0, 0);
-  return secondsLeft > 0 ? QStringLiteral("%1 %2").arg(text, durationText(secondsLeft)) : text;
+QString refereeTeamName(const link::MatchFrame& frame, const GameTeam& team) {
+  const std::string_view name = link::teamName(team.number, frame.teams);
+  if (!name.empty()) return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  if (team.colour == TeamColor::Unknown) return QStringLiteral("TEAM %1").arg(team.number);
+  return QString::fromStdString(std::string(info(team.colour).name)).toUpper();
+}
+
+QString penaltyTag(const link::Penalty& penalty) {
+  const QString text = labelText(penalty.kind).section(QStringLiteral(" or "), 0, 0);
+  return penalty.secondsLeft > 0
+             ? QStringLiteral("%1 %2").arg(text, durationText(penalty.secondsLeft))
+             : text;
 }
 
 QString refereeClockText(int seconds) {
   return (seconds < 0 ? QString(QChar(0x2212)) : QString()) + clockText(std::abs(seconds));
 }
 
-QString refereeStateText(const link::RefereeView& view) {
-  QStringList parts{text(view.state) + QLatin1Char(' ') + refereeClockText(view.secondsLeft),
-                    view.firstHalf ? QStringLiteral("first half") : QStringLiteral("second half")};
-  if (!view.phase.empty()) parts << text(view.phase);
-  if (view.stopped) parts << QStringLiteral("stopped");
-  if (view.timedOut) {
-    parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
+QString refereeStateText(const link::MatchFrame& frame) {
+  const Game& game = *frame.game;
+  QStringList parts{labelText(game.state) + QLatin1Char(' ') + refereeClockText(game.secondsLeft()),
+                    game.half == 1 ? QStringLiteral("first half") : QStringLiteral("second half")};
+  if (game.phase != GamePhase::Normal) parts << labelText(game.phase);
+  if (game.stopped) parts << QStringLiteral("stopped");
+  if (frame.reception.timedOut) {
+    parts << QStringLiteral("last packet %1 ago").arg(durationText(frame.reception.age));
   }
   return parts.join(comma);
 }
 
-QString refereeSetPlayText(const link::RefereeView& view) {
+QString refereeSetPlayText(const link::MatchFrame& frame) {
+  const Game& game = *frame.game;
   QStringList parts;
-  if (!view.setPlay.empty()) {
-    parts << (view.performingTeam ? QStringLiteral("%1 for %2")
-                                        .arg(text(view.setPlay), teamOf(view, *view.performingTeam))
-                                  : text(view.setPlay));
-  } else if (view.kickOffTeam && !view.countdown.empty() && view.state != "FINISHED") {
-    parts << QStringLiteral("kick-off for %1").arg(teamOf(view, *view.kickOffTeam));
+  const auto nameOf = [&](int team) {
+    return refereeTeamName(frame, game.teams[static_cast<std::size_t>(team)]);
+  };
+  const CountdownTo countdown = game.countdownTo();
+  if (game.setPlay() != SetPlay::None) {
+    const QString play = labelText(game.setPlay());
+    parts << (game.setPlayTeam() >= 0
+                  ? QStringLiteral("%1 for %2").arg(play, nameOf(game.setPlayTeam()))
+                  : play);
+    // Elsewhere a set play has no steps, but can be stopped.
+    const bool hasSteps = game.league == League::Humanoid;
+    if (hasSteps || game.restart.step == Restart::Step::Placing) {
+      parts << labelText(game.restart.step);
+    }
+  } else if (game.kickOff >= 0 && countdown != CountdownTo::Nothing &&
+             game.state != PlayState::Finished && game.phase != GamePhase::Timeout) {
+    parts << QStringLiteral("kick-off for %1").arg(nameOf(game.kickOff));
   }
-  if (!view.setPlayStep.empty()) parts << text(view.setPlayStep);
-  if (!view.countdown.empty()) {
-    parts
-        << QStringLiteral("%1 in %2").arg(text(view.countdown), durationText(*view.secondaryTime));
+  if (countdown != CountdownTo::Nothing) {
+    parts << QStringLiteral("%1 in %2")
+                 .arg(labelText(countdown), durationText(game.countdownSeconds()));
   }
   return parts.join(comma);
 }
 
-QString refereeTruthText(const link::RefereeView& view) {
-  if (!view.truth) return {};
-  const link::RefereeTruth& truth = *view.truth;
-  QStringList parts{QStringLiteral("True state: %1 %2")
-                        .arg(text(truth.state), refereeClockText(truth.secondsLeft)),
-                    QStringLiteral("%1 : %2").arg(truth.scores[0]).arg(truth.scores[1])};
-  if (!truth.setPlay.empty()) parts << text(truth.setPlay);
-  if (truth.secondaryTime.value_or(0) != 0) {
-    parts << QStringLiteral("secondary time %1 s").arg(*truth.secondaryTime);
+QString refereeTruthText(const link::MatchFrame& frame) {
+  if (!frame.reception.truth) return {};
+  const Game& truth = *frame.reception.truth;
+  QStringList parts{
+      QStringLiteral("True state: %1 %2")
+          .arg(labelText(truth.state), refereeClockText(truth.secondsLeft())),
+      QStringLiteral("%1 : %2").arg(truth.teamAt(false).score).arg(truth.teamAt(true).score)};
+  if (truth.setPlay() != SetPlay::None) {
+    parts << labelText(truth.setPlay());
+  } else if (truth.phase != GamePhase::Normal) {
+    parts << labelText(truth.phase);
   }
-  parts << QStringLiteral("%1 ago").arg(durationText(truth.age, 1));
+  if (truth.countdownSeconds() != 0) {
+    parts << QStringLiteral("secondary time %1 s").arg(truth.countdownSeconds());
+  }
+  parts << QStringLiteral("%1 ago").arg(durationText(frame.reception.truthAge, 1));
   return parts.join(comma);
 }
 
-QString refereeTeamText(const link::RefereeTeamView& team, int ourTeam) {
-  const QString name = team.name.empty()
-                           ? QStringLiteral("Team")
-                           : QString::fromStdString(team.name) + QStringLiteral(", team");
-  return QStringLiteral("%1 %2 (%3)%4: %5 %6, %7 %8 left")
-      .arg(name)
-      .arg(team.number)
-      .arg(text(team.colour))
-      .arg(team.number == ourTeam && ourTeam != 0 ? QStringLiteral(", ours") : QString())
-      .arg(team.score)
-      .arg(team.score == 1 ? QStringLiteral("goal") : QStringLiteral("goals"))
-      .arg(team.playersLeft)
-      .arg(team.playersLeft == 1 ? QStringLiteral("player") : QStringLiteral("players"));
+QString refereeTeamText(const link::MatchFrame& frame, const GameTeam& team) {
+  const std::string_view own = link::teamName(team.number, frame.teams);
+  const QString name = own.empty() ? QStringLiteral("Team")
+                                   : refereeTeamName(frame, team) + QStringLiteral(", team");
+  const int ourTeam = frame.reception.ourTeam;
+  const int left = team.playing();
+  QString out =
+      QStringLiteral("%1 %2 (%3)%4: %5 %6, %7 %8 left")
+          .arg(name)
+          .arg(team.number)
+          .arg(QString::fromStdString(std::string(info(team.colour).name)))
+          .arg(team.number == ourTeam && ourTeam != 0 ? QStringLiteral(", ours") : QString())
+          .arg(team.score)
+          .arg(team.score == 1 ? QStringLiteral("goal") : QStringLiteral("goals"))
+          .arg(left)
+          .arg(left == 1 ? QStringLiteral("player") : QStringLiteral("players"));
+  if (team.messageBudget) {
+    out += comma + QStringLiteral("message budget %1").arg(*team.messageBudget);
+  }
+  return out;
 }
 
 }  // namespace pitchboard::ui

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include <base/duration_text.h>
-#include <robotlink/frame/teams.h>
 #include <simcore/world/action_codes.h>
 #include <telemetry/wire/meanings.h>
 
@@ -18,17 +17,14 @@ QString robotName(const link::RobotFrame& robot) {
   return QString::fromStdString(robot.name);
 }
 
-bool isVariable(const QString& saved, const QString& variable) {
-  if (saved == variable) return true;
-  const auto parts = [](const QString& name) {
-    const qsizetype slash = name.lastIndexOf(QLatin1Char('/'));
-    return std::pair(name.left(slash < 0 ? 0 : slash).toStdString(),
-                     name.mid(slash + 1).toStdString());
-  };
-  const auto [savedGroup, savedColumn] = parts(saved);
-  const auto [group, column] = parts(variable);
-  return link::isSameRobot(savedGroup, group) &&
-         (savedColumn == column || telemetry::presentName(savedColumn) == column);
+std::optional<telemetry::SeriesId> findVariable(const telemetry::SeriesStore& rows,
+                                                const QString& name) {
+  const qsizetype slash = name.indexOf(QLatin1Char('/'));
+  if (slash <= 0) return {};
+  const std::string group = name.left(slash).toStdString();
+  const std::string column = name.mid(slash + 1).toStdString();
+  const auto id = rows.find(group, column);
+  return id ? id : rows.find(group, telemetry::presentName(column));
 }
 
 QString actionText(int code) {

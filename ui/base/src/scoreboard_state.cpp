@@ -3,6 +3,8 @@
 
 #include <QObject>
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include <robotlink/frame/match_result.h>
 #include <ui/base/elide_text.h>
@@ -20,82 +22,108 @@ QString teamName(TeamColor team, const link::Teams& teams) {
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }
 
-QColor refereeColour(const std::string& colourName) {
-  if (const auto drawn = teamColorNamed(colourName)) return theme().team(*drawn);
-  // What referees know besides the colours that robots are drawn in.
-  static const std::pair<const char*, QColor> others[] = {{"white", QColor(245, 245, 245)},
-                                                          {"green", QColor(58, 150, 80)},
-                                                          {"purple", QColor(130, 70, 170)},
-                                                          {"brown", QColor(125, 85, 50)},
-                                                          {"gray", QColor(128, 128, 128)}};
-  for (const auto& [name, colour] : others) {
-    if (colourName == name) return colour;
+QColor refereeColour(TeamColor colour) {
+  if (const auto drawn = robotColor(colour)) return theme().team(*drawn);
+  switch (colour) {  // what referees know besides the colours that robots are drawn in
+    case TeamColor::White:
+      return {245, 245, 245};
+    case TeamColor::Green:
+      return {58, 150, 80};
+    case TeamColor::Purple:
+      return {130, 70, 170};
+    case TeamColor::Brown:
+      return {125, 85, 50};
+    case TeamColor::Gray:
+      return {128, 128, 128};
+    default:
+      return {};
   }
-  return {};
 }
 
-QString refereeTeam(const link::RefereeTeamView& team) {
-  if (!team.name.empty()) return QString::fromStdString(team.name).toUpper();
-  if (team.colour == "unknown") return QStringLiteral("TEAM %1").arg(team.number);
-  return QString::fromStdString(team.colour).toUpper();
-}
-
-QString refereeTip(const link::RefereeView& view, bool received) {
+QString refereeTip(const link::MatchFrame& frame) {
+  const Game& game = *frame.game;
   QStringList tip;
-  for (const link::RefereeTeamView& team : view.teams) tip << refereeTeamText(team, view.ourTeam);
-  tip << refereeStateText(view);
-  if (const QString setPlay = refereeSetPlayText(view); !setPlay.isEmpty()) tip << setPlay;
-  tip << (view.kickOffTeam ? QStringLiteral("Kick-off: team %1").arg(*view.kickOffTeam)
-                           : QStringLiteral("Kick-off: none (drop ball)"));
-  if (!received) return tip.join(QLatin1Char('\n'));
-  tip << QStringLiteral("Referee at %1, version %2, last packet %3 ago")
-             .arg(QString::fromStdString(view.sender))
-             .arg(view.version)
-             .arg(durationText(view.age, 1));
-  if (view.conflict) tip << QStringLiteral("A second referee program is sending.");
-  if (const QString truth = refereeTruthText(view); !truth.isEmpty()) tip << truth;
+  for (const bool right : {false, true}) tip << refereeTeamText(frame, game.teamAt(right));
+  tip << refereeStateText(frame);
+  if (const QString setPlay = refereeSetPlayText(frame); !setPlay.isEmpty()) tip << setPlay;
+  tip << (game.kickOff >= 0 ? QStringLiteral("Kick-off: team %1")
+                                  .arg(game.teams[static_cast<std::size_t>(game.kickOff)].number)
+                            : QStringLiteral("Kick-off: none (drop ball)"));
+  if (frame.origin != link::FrameOrigin::Live) return tip.join(QLatin1Char('\n'));
+  const link::RefereeReception& reception = frame.reception;
+  tip << (reception.simulated
+              ? QStringLiteral("Simulated referee at %1, version %2, last packet %3 ago")
+              : QStringLiteral("Referee at %1, version %2, last packet %3 ago"))
+             .arg(QString::fromStdString(reception.sender))
+             .arg(reception.version)
+             .arg(durationText(reception.age, 1));
+  if (reception.conflict) tip << QStringLiteral("A second referee program is sending.");
+  if (const QString truth = refereeTruthText(frame); !truth.isEmpty()) tip << truth;
   return tip.join(QLatin1Char('\n'));
+}
+
+/// Which part of the game is played.
+QString periodOf(const Game& game) {
+  const auto period = game.period();
+  if (!period) return QStringLiteral("PEN");
+  static const std::array<QString, 4> names{QStringLiteral("1st"), QStringLiteral("2nd"),
+                                            QStringLiteral("ET 1"), QStringLiteral("ET 2")};
+  return names[std::min(*period, names.size() - 1)];
+}
+
+/// "72:05": a clock of a game does not turn to hours.
+QString gameClock(double seconds) {
+  const auto whole = static_cast<long long>(std::floor(std::max(seconds, 0.0)));
+  const QLatin1Char zero('0');
+  return QStringLiteral("%1:%2").arg(whole / 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
 }
 
 /// Left team first; empty before the second half, and where only packets are known.
 QString halvesOf(const link::MatchFrame& frame) {
-  if (!frame.refereedGame) return {};
-  const sim::GameState& game = frame.refereedGame->game;
-  const std::size_t left = game.leftTeam();
-  return QString::fromStdString(
-      link::halvesText(link::goalsByHalf(game, left), link::goalsByHalf(game, 1 - left)));
+  if (!frame.rules) return {};
+  const std::size_t left = frame.game->leftTeam();
+  return QString::fromStdString(link::halvesText(link::goalsByHalf(*frame.game, left),
+                                                 link::goalsByHalf(*frame.game, 1 - left)));
 }
 
 ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   ScoreboardState state;
-  if (!frame.referee) {
+  if (!frame.game) {
     state.clock = QStringLiteral("--:--");
     state.state = QStringLiteral("NO REFEREE");
     state.tip = QStringLiteral("No referee packet received yet.");
     return state;
   }
-  const link::RefereeView& view = *frame.referee;
-  state.leftName = refereeTeam(view.teams[0]);
-  state.rightName = refereeTeam(view.teams[1]);
-  state.leftColour = refereeColour(view.teams[0].colour);
-  state.rightColour = refereeColour(view.teams[1].colour);
-  state.left = view.teams[0].score;
-  state.right = view.teams[1].score;
+  const Game& game = *frame.game;
+  const GameTeam &leftTeam = game.teamAt(false), &rightTeam = game.teamAt(true);
+  state.leftName = refereeTeamName(frame, leftTeam).toUpper();
+  state.rightName = refereeTeamName(frame, rightTeam).toUpper();
+  state.leftColour = refereeColour(leftTeam.colour);
+  state.rightColour = refereeColour(rightTeam.colour);
+  state.left = leftTeam.score;
+  state.right = rightTeam.score;
   // It counts down to the end of the half; how long that is past is no time of play.
-  state.clock = clockText(std::max(view.secondsLeft, 0));
-  const std::string& more = !view.setPlay.empty() ? view.setPlay : view.phase;
+  state.clock = gameClock(game.secondsLeft());
+  state.period = periodOf(game);
   QString play, team, countdown;  // beside the state
-  if (view.stopped && !view.timedOut) {
+  const bool timedOut = frame.reception.timedOut;
+  if (timedOut) {
+    // what it said last is not said
+  } else if (game.stopped) {
     play = QStringLiteral("stopped");
-  } else if (!more.empty() && !view.timedOut) {
-    play = QString::fromStdString(more);
-    if (!view.setPlay.empty() && view.performingTeam) {
-      team = QStringLiteral(" %1").arg(*view.performingTeam);
+  } else if (game.setPlay() != SetPlay::None) {
+    play = labelText(game.setPlay());
+    const int taker = game.setPlayTeam();
+    if (taker >= 0) {
+      team = QStringLiteral(" %1").arg(game.teams[static_cast<std::size_t>(taker)].number);
     }
+  } else if (game.phase != GamePhase::Normal) {
+    play = labelText(game.phase);
   }
-  if (!view.timedOut && !view.countdown.empty()) countdown = durationText(*view.secondaryTime);
-  const QString name =
-      view.timedOut ? QStringLiteral("REFEREE OFFLINE") : QString::fromStdString(view.state);
+  if (!timedOut && game.countdownTo() != CountdownTo::Nothing) {
+    countdown = durationText(game.countdownSeconds());
+  }
+  const QString name = timedOut ? QStringLiteral("REFEREE OFFLINE") : labelText(game.state);
   const auto joined = [](QStringList parts) {
     parts.removeAll(QString());
     return parts.join(QStringLiteral(" · "));
@@ -104,8 +132,14 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   const QString paused = simulated && frame.paused ? QStringLiteral("paused") : QString();
   state.state = joined({name, play + team, countdown, paused});
   // The transport shows the pause, too, so it makes room first; numbers stay to the last.
-  state.shorter = {joined({name, play + team, countdown}), joined({name, play, countdown}),
-                   joined({name, countdown})};
+  // Which set play it is says more than that the game is played.
+  state.shorter = {joined({name, play + team, countdown}), joined({name, play, countdown})};
+  if (!play.isEmpty()) {
+    state.shorter << joined({play + team, countdown}) << joined({play, countdown});
+  }
+  state.shorter << joined({name, countdown});
+  if (!play.isEmpty()) state.shorter << play;
+  state.shorter << name;
   if (simulated && frame.finished) {
     state.state = QStringLiteral("FINAL WHISTLE");
     state.shorter.clear();
@@ -113,15 +147,17 @@ ScoreboardState refereeScoreboard(const link::MatchFrame& frame) {
   QStringList penalties;
   for (const link::RobotFrame& robot : frame.robots) {
     const auto& penalty = robot.penalty;
-    if (!penalty) continue;
+    if (!penalty || penalty->isSubstitute()) continue;
     const QString line =
         robotName(robot) +
         (penalty->secondsLeft > 0 ? QStringLiteral(" %1").arg(penalty->secondsLeft) : QString());
     // A second sender of its number is no second player.
     if (!penalties.contains(line)) penalties << line;
   }
-  state.penalties = penalties.join(QStringLiteral(" · "));
-  state.tip = refereeTip(view, frame.origin == link::FrameOrigin::Live);
+  if (!penalties.isEmpty()) {
+    state.penalties = QStringLiteral("Penalties: ") + penalties.join(QStringLiteral(" · "));
+  }
+  state.tip = refereeTip(frame);
   if (const QString halves = halvesOf(frame); !halves.isEmpty()) {
     state.tip += QStringLiteral("\nBy half: ") + halves;
   }
@@ -150,7 +186,7 @@ QString teamsText(const link::MatchFrame& frame) {
 ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   // Only who plays a match knows its score without a referee: not what is received, nor its past.
   const bool played = frame.truthKnown || frame.ballKnown;
-  if (!played || frame.referee) return refereeScoreboard(frame);
+  if (!played || frame.game) return refereeScoreboard(frame);
   ScoreboardState state;
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame.robots) robots.push_back(robot.identity);
@@ -162,7 +198,7 @@ ScoreboardState scoreboardOf(const link::MatchFrame& frame) {
   state.rightColour = theme().team(rightTeam);
   state.left = frame.snapshot.score.left;
   state.right = frame.snapshot.score.right;
-  state.clock = clockText(frame.snapshot.clock);
+  state.clock = gameClock(frame.snapshot.clock);
   const bool past = frame.origin == link::FrameOrigin::Recorded;
   state.state = frame.finished                ? QStringLiteral("FINISHED")
                 : frame.paused && !past       ? QStringLiteral("PAUSED")

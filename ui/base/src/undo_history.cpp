@@ -4,6 +4,8 @@
 #include <QAction>
 #include <utility>
 
+#include <ui/base/action_reason.h>
+
 namespace pitchboard::ui {
 
 UndoHistory::UndoHistory(QObject* parent)
@@ -59,8 +61,8 @@ void UndoHistory::refresh() {
                                   : QStringLiteral("Undo"));
   m_redo->setText(redo != nullptr ? QStringLiteral("Redo %1").arg(redo->redoText())
                                   : QStringLiteral("Redo"));
-  m_undo->setEnabled(undo != nullptr);
-  m_redo->setEnabled(redo != nullptr);
+  enableUnless(*m_undo, undo ? QString() : QStringLiteral("Nothing to undo here"));
+  enableUnless(*m_redo, redo ? QString() : QStringLiteral("Nothing to redo here"));
 }
 
 }  // namespace pitchboard::ui

@@ -24,6 +24,7 @@
 #include <simcore/simulation/simulation.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/base/dialog_size.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
@@ -43,8 +44,7 @@ Result<QStringList> robotsOfSession(const QString& path) {
   const auto session = TRY(telemetry::SessionReader::open(path.toStdString()));
   QStringList names;
   for (const telemetry::SessionGroup& group : session.groups()) {
-    const auto& attributes = group.info.attributes;
-    if (attributes.contains("team")) names << QString::fromStdString(group.info.name);
+    if (factsOf(group.info).team) names << QString::fromStdString(group.info.name);
   }
   names.removeDuplicates();
   return names;
@@ -139,7 +139,7 @@ CalibrateDialog::CalibrateDialog(MatchController* match, QWidget* parent)
     ask->setDefaultSuffix(QStringLiteral("json"));
     ask->selectFile(QString::fromStdString(m_calibration->model.name) + QStringLiteral(".json"));
     connect(ask, &QFileDialog::fileSelected, this, &CalibrateDialog::saveTo);
-    ask->open();
+    openInDialogFolder(ask);
   });
   for (const auto changed : {&MatchController::opened, &MatchController::scenarioChanged}) {
     connect(m_match, changed, this, &CalibrateDialog::showButtons);
@@ -262,7 +262,7 @@ void CalibrateDialog::askForFiles() {
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFiles);
   connect(ask, &QFileDialog::filesSelected, this, &CalibrateDialog::addFiles);
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 void CalibrateDialog::addFiles(const QStringList& paths) {
@@ -311,7 +311,7 @@ void CalibrateDialog::chooseBase(int index) {
     m_base->setItemData(place, file, Qt::ToolTipRole);
     m_base->setCurrentIndex(place);
   });
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 void CalibrateDialog::start() {
@@ -359,8 +359,10 @@ void CalibrateDialog::finish(const Result<CalibrationPtr>& made, const sim::Fiel
     QString text = QStringLiteral("%1 parameters estimated from %2.")
                        .arg(c.values.size())
                        .arg(durationText(c.seconds));
-    for (const std::string& note : c.notes)
-      text += QLatin1Char('\n') + QString::fromStdString(note);
+    for (const auto& notes : {link::leftOutTexts(c), c.notes}) {
+      for (const std::string& note : notes)
+        text += QLatin1Char('\n') + QString::fromStdString(note);
+    }
     showStatus(text);
   } else if (m_cancelled) {
     showStatus(QStringLiteral("Calibration cancelled."));
@@ -457,7 +459,10 @@ void CalibrateDialog::use(bool team) {
   const QString whose =
       ids.size() == 1 ? QStringLiteral("%1 uses").arg(QString::fromStdString(m_calibration->robot))
                       : QStringLiteral("%1 robots use").arg(ids.size());
-  showStatus(QStringLiteral("%1 these parameters now. Undo reverts it.").arg(whose));
+  QString text = QStringLiteral("%1 these parameters now. Undo reverts it.").arg(whose);
+  for (const std::string& beyond : link::beyondPriorTexts(*m_calibration))
+    text += QStringLiteral("\nCheck: ") + QString::fromStdString(beyond);
+  showStatus(text);
 }
 
 void CalibrateDialog::saveTo(const QString& path) {

@@ -12,7 +12,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr std::size_t mostWindowsShown = 30;
+constexpr std::size_t maxWindowsShown = 30;
 
 QColor recordedColour() {
   return theme().fieldLines;
@@ -100,7 +100,7 @@ void PredictionsView::paintEvent(QPaintEvent* /*event*/) {
   p.translate(QRectF(room).center());
   p.scale(scale, -scale);
   paintGround(p, m_field, m_field.lineWidth);
-  const std::size_t count = std::min(mostWindowsShown, check.windows.size());
+  const std::size_t count = std::min(maxWindowsShown, check.windows.size());
   for (std::size_t i = 0; i < count; ++i) {
     const link::PredictedWindow& window = check.windows[i * check.windows.size() / count];
     QPolygonF recorded, calibrated, base;
@@ -123,7 +123,9 @@ ResidualsView::ResidualsView(QWidget* parent) : QWidget(parent) {
   setObjectName(QStringLiteral("calibrationResiduals"));
   setToolTip(QStringLiteral(
       "Measured minus expected by the calibrated model, divided by the model's standard "
-      "deviation. Where the model is right, the size is 1 and the dots lie on the line."));
+      "deviation. Where the model is right, the bias is 0, the deviation 1, and the dots lie on "
+      "the "
+      "line."));
 }
 
 void ResidualsView::show(std::shared_ptr<const link::Calibration> calibration) {
@@ -148,11 +150,7 @@ void ResidualsView::paintEvent(QPaintEvent* /*event*/) {
   for (const link::CalibrationResiduals& one : m_calibration->residuals) {
     p.setPen(theme().text);
     p.drawText(QRect(gap, top + gap / 2, width() - 2 * gap, line), Qt::AlignLeft,
-               QStringLiteral("%1: %2 measurements, size %3, autocorrelation %4")
-                   .arg(QString::fromStdString(one.sense))
-                   .arg(one.count)
-                   .arg(one.deviation, 0, 'f', 2)
-                   .arg(one.autocorrelation, 0, 'f', 2));
+               QString::fromStdString(one.sense + ": " + link::residualsText(one)));
     const int side = rowHeight() - line - 2 * gap;
     const QRectF over(gap + line, top + line + gap, width() - 4 * gap - line - side, side);
     const QRectF dots(width() - gap - side, top + line + gap, side, side);

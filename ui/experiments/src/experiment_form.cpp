@@ -15,7 +15,7 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr int mostRuns = 1'000'000;
+constexpr int maxRuns = 1'000'000;
 
 /// "after 60 s, or at a goal".
 QString endText(const link::RunStop& stop) {
@@ -68,7 +68,7 @@ ExperimentForm::ExperimentForm(QWidget* parent)
   form->addRow(m_title);
   form->addRow(m_description);
   m_runs->setObjectName(QStringLiteral("experimentRuns"));
-  m_runs->setRange(1, mostRuns);
+  m_runs->setRange(1, maxRuns);
   m_runs->setButtonSymbols(QAbstractSpinBox::NoButtons);
   m_runs->setFixedWidth(scaled(this, 72));
   m_runs->setToolTip(QStringLiteral("How often each condition is played"));

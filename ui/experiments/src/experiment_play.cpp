@@ -2,6 +2,8 @@
 #include "experiment_play.h"
 
 #include <QDir>
+#include <QFile>
+#include <QFileInfo>
 #include <algorithm>
 #include <chrono>
 #include <thread>
@@ -14,19 +16,24 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 constexpr auto progressInterval = std::chrono::milliseconds(100);
-constexpr int mostFolders = 100'000;
+constexpr int maxFolders = 100'000;
 
 link::PlaySettings settingsWith(const std::atomic<bool>& cancelled) {
-  return {link::besideTeamProgram("pitchboard-robot"), {}, {}, &cancelled};
+  link::PlaySettings settings;
+  settings.robotProgram = link::besideTeamProgram("pitchboard-robot");
+  settings.cancelled = &cancelled;
+  return settings;
 }
 
-/// "name-1", the first that is free.
-QString newFolder(const QString& folders, const QString& name) {
-  for (int i = 1; i < mostFolders; ++i) {
-    QString path = QStringLiteral("%1/%2-%3").arg(folders, name).arg(i);
-    if (!QDir(path).exists()) return path;
-  }
-  return folders + QLatin1Char('/') + name;
+QString folderPath(const QString& folders, const QString& name, int number) {
+  return QStringLiteral("%1/%2-%3").arg(folders, name).arg(number);
+}
+
+/// The number of the first folder "name-1", "name-2", … that is free.
+int freeNumber(const QString& folders, const QString& name) {
+  int number = 1;
+  while (number < maxFolders && QDir(folderPath(folders, name, number)).exists()) ++number;
+  return number;
 }
 
 }  // namespace
@@ -39,10 +46,34 @@ ExperimentPlay::~ExperimentPlay() {
 }
 
 void ExperimentPlay::start(link::Experiment experiment, const QString& folders) {
+  const QString name = QString::fromStdString(experiment.name);
+  const QString folder = folderPath(folders, name, freeNumber(folders, name));
+  begin(std::move(experiment), folder, false);
+}
+
+void ExperimentPlay::resume(link::Experiment experiment, const QString& folder) {
+  begin(std::move(experiment), folder, true);
+}
+
+void ExperimentPlay::begin(link::Experiment experiment, const QString& folder, bool resume) {
   m_cancelled = false;
   m_playing = true;
-  const QString folder = newFolder(folders, QString::fromStdString(experiment.name));
-  m_worker.start([this, e = std::move(experiment), folder] { play(e, folder); });
+  m_worker.start([this, e = std::move(experiment), folder, resume] { play(e, folder, resume); });
+}
+
+QString ExperimentPlay::unfinished(const link::Experiment& experiment, const QString& folders) {
+  const QString name = QString::fromStdString(experiment.name);
+  const int number = freeNumber(folders, name) - 1;
+  if (number < 1) return {};
+  const QString folder = folderPath(folders, name, number);
+  const auto file = [&folder](const char* part) {
+    return QDir(folder).filePath(QLatin1String(part));
+  };
+  // The reports are written after the last run.
+  if (!QFileInfo::exists(file(link::runsFile)) || QFileInfo::exists(file("report.html"))) return {};
+  QFile known(file(link::experimentFile));
+  if (!known.open(QIODevice::ReadOnly)) return {};
+  return known.readAll() == QByteArray::fromStdString(experiment.text) ? folder : QString();
 }
 
 void ExperimentPlay::cancel() {
@@ -57,11 +88,13 @@ void ExperimentPlay::fail(const Error& error) {
 }
 
 // In the worker's thread.
-void ExperimentPlay::play(const link::Experiment& experiment, const QString& folder) {
-  auto results = link::ExperimentFolder::begin(folder.toStdString(), experiment, false);
+void ExperimentPlay::play(const link::Experiment& experiment, const QString& folder, bool resume) {
+  auto results = link::ExperimentFolder::begin(folder.toStdString(), experiment, resume);
   if (!results) return fail(results.error());
-  std::vector<std::size_t> numbers(experiment.allRuns());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i + 1;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < experiment.allRuns(); ++i) {
+    if (results->finished()[i] == 0) numbers.push_back(i + 1);
+  }
   // In turn, so that a cancelled experiment has runs of every condition.
   std::ranges::stable_sort(numbers, {}, [&experiment](std::size_t number) {
     return link::placeOf(experiment, number).index;
@@ -79,9 +112,10 @@ void ExperimentPlay::play(const link::Experiment& experiment, const QString& fol
                        const auto now = WallClock::now();
                        if (now - reported < progressInterval && !results->complete()) return {};
                        reported = now;
-                       m_ui.post([this, done = results->finishedCount(), all = numbers.size(),
+                       m_ui.post([this, done = results->finishedCount(), all = experiment.allRuns(),
+                                  asked = numbers.size(),
                                   seconds = std::chrono::duration<double>(now - begin).count()] {
-                         emit progressed(done, all, seconds);
+                         emit progressed(done, all, seconds / double(done + asked - all));
                        });
                        return {};
                      });

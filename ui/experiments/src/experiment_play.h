@@ -34,13 +34,19 @@ class ExperimentPlay : public QObject {
   bool isPlaying() const { return m_playing; }
   /// Plays it into a new folder below `folders`, one run for each processor at a time.
   void start(link::Experiment experiment, const QString& folders);
+  /// Plays the runs that are missing in `folder`, which has results of this experiment.
+  void resume(link::Experiment experiment, const QString& folder);
+  /// Returns the newest folder below `folders` with results of this experiment, if it lacks some
+  /// runs; else an empty text.
+  static QString unfinished(const link::Experiment& experiment, const QString& folders);
   /// Keeps what has been played; `ended` follows.
   void cancel();
   /// Plays runs again into session files; `recorded` or `failed` follows.
   void record(PlayedPtr of, std::vector<std::size_t> numbers);
 
  signals:
-  void progressed(qulonglong done, qulonglong all, double seconds);
+  /// `each`: s for each run played so far, of which several are played at once.
+  void progressed(qulonglong done, qulonglong all, double each);
   /// All runs are there, or it was cancelled: then the summary is that of the runs that are.
   void ended(const pitchboard::ui::PlayedPtr& played);
   /// In the order in which they were asked for.
@@ -48,7 +54,8 @@ class ExperimentPlay : public QObject {
   void failed(const QString& sentence);
 
  private:
-  void play(const link::Experiment& experiment, const QString& folder);
+  void begin(link::Experiment experiment, const QString& folder, bool resume);
+  void play(const link::Experiment& experiment, const QString& folder, bool resume);
   Result<QString> recordOne(const PlayedExperiment& of, std::size_t number);
   void fail(const Error& error);
 

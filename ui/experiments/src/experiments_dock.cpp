@@ -3,10 +3,10 @@
 
 #include <QComboBox>
 #include <QDesktopServices>
-#include <QFileDialog>
 #include <QFontDatabase>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QPlainTextEdit>
 #include <QProgressBar>
 #include <QPushButton>
@@ -16,7 +16,10 @@
 #include <QVBoxLayout>
 
 #include <base/file_target.h>
+#include <ui/base/elide_text.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/robot_text.h>
+#include <ui/base/running_work.h>
 #include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
 #include <ui/sources/compared_session.h>
@@ -24,10 +27,26 @@
 
 #include "experiment_form.h"
 #include "experiment_play.h"
-#include "one_line.h"
 #include "results_tabs.h"
 
 namespace pitchboard::ui {
+
+/// A sentence that ends with dots when it is longer than its place is wide; resting the mouse on it
+/// tells the rest. UI thread.
+class OneLine : public QLabel {
+ public:
+  using QLabel::QLabel;
+
+ protected:
+  void paintEvent(QPaintEvent* /*event*/) override {
+    QPainter painter(this);
+    const QRect room = contentsRect();
+    painter.setPen(palette().color(QPalette::WindowText));
+    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                     elideText(QFontMetricsF(font()), text(), room.width()));
+  }
+};
+
 namespace {
 
 QString folderOfExperiments() {
@@ -43,6 +62,7 @@ class ExperimentsDock : public QWidget {
         m_play(new ExperimentPlay(this)),
         m_choice(new QComboBox(this)),
         m_start(new QPushButton(QStringLiteral("Start"), this)),
+        m_continue(new QPushButton(QStringLiteral("Continue"), this)),
         m_report(new QPushButton(QStringLiteral("Report"), this)),
         m_progress(new QProgressBar(this)),
         m_message(new OneLine(this)),
@@ -55,6 +75,7 @@ class ExperimentsDock : public QWidget {
     connect(m_play, &ExperimentPlay::ended, this, &ExperimentsDock::showResults);
     connect(m_play, &ExperimentPlay::failed, this, [this](const QString& sentence) {
       setPlaying(false);
+      offerToContinue();
       showStatus(sentence, true);
     });
     connect(m_play, &ExperimentPlay::recorded, this, &ExperimentsDock::showRecorded);
@@ -88,6 +109,20 @@ class ExperimentsDock : public QWidget {
     connect(save, &QToolButton::clicked, this, [this] { askAndSave(); });
     m_start->setObjectName(QStringLiteral("experimentStart"));
     connect(m_start, &QPushButton::clicked, this, [this] { startOrCancel(); });
+    m_continue->setObjectName(QStringLiteral("experimentContinue"));
+    m_continue->setToolTip(QStringLiteral("Play the runs that are missing in the last results"));
+    m_continue->hide();
+    connect(m_continue, &QPushButton::clicked, this, [this] { play(m_unfinished); });
+    if (m_parts.work != nullptr) {
+      m_parts.work->add(this, [this] {
+        return m_play->isPlaying()
+                   ? QStringLiteral(
+                         "An experiment is running (%1). Quitting keeps the runs that "
+                         "have ended; Continue in Experiments plays the others.")
+                         .arg(m_progressText)
+                   : QString();
+      });
+    }
     m_report->setToolTip(QStringLiteral("Open the report in a browser"));
     m_report->setEnabled(false);
     connect(m_report, &QPushButton::clicked, this, [this] {
@@ -104,8 +139,8 @@ class ExperimentsDock : public QWidget {
     row->setSpacing(gap);
     row->addWidget(m_choice, 1);
     for (QWidget* one : {static_cast<QWidget*>(open), static_cast<QWidget*>(save),
-                         static_cast<QWidget*>(m_progress), static_cast<QWidget*>(m_start),
-                         static_cast<QWidget*>(m_report)}) {
+                         static_cast<QWidget*>(m_progress), static_cast<QWidget*>(m_continue),
+                         static_cast<QWidget*>(m_start), static_cast<QWidget*>(m_report)}) {
       row->addWidget(one);
     }
     auto* layout = new QVBoxLayout(this);
@@ -174,11 +209,23 @@ class ExperimentsDock : public QWidget {
     m_form->show(*loaded, link::editsOf(loaded->text).value_or(link::ExperimentEdits()));
     m_text->document()->setModified(false);
     showStatus({});
+    offerToContinue();
+  }
+
+  /// Runs of this very experiment may be missing because it was cancelled, or the studio ended.
+  void offerToContinue() {
+    const auto experiment =
+        link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
+    m_unfinished = experiment && !m_play->isPlaying()
+                       ? ExperimentPlay::unfinished(*experiment, folderOfExperiments())
+                       : QString();
+    m_continue->setVisible(!m_unfinished.isEmpty());
   }
 
   void showForm() {
     const std::string text = m_text->toPlainText().toStdString();
     const auto edited = link::experimentFromJson(text, "File", {}, {});
+    offerToContinue();
     if (edited)
       m_form->show(*edited, link::editsOf(text).value_or(link::ExperimentEdits()));
     else
@@ -198,12 +245,12 @@ class ExperimentsDock : public QWidget {
     m_text->document()->setModified(false);
     m_form->show(*experiment, link::editsOf(*text).value_or(link::ExperimentEdits()));
     showStatus({});
+    offerToContinue();
   }
 
   void askAndOpen() {
-    const QString path =
-        QFileDialog::getOpenFileName(this, QStringLiteral("Open experiment"), {},
-                                     QStringLiteral("Experiments (*.json);;All files (*)"));
+    const QString path = askToOpen(this, QStringLiteral("Open experiment"),
+                                   QStringLiteral("Experiments (*.json);;All files (*)"));
     if (path.isEmpty()) return;
     open(path, false);
   }
@@ -227,8 +274,9 @@ class ExperimentsDock : public QWidget {
   }
 
   void askAndSave() {
-    const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), {},
-                                                      QStringLiteral("Experiments (*.json)"));
+    const QString path =
+        askToSave(this, QStringLiteral("Save experiment"), QStringLiteral("experiment.json"),
+                  QStringLiteral("Experiments (*.json)"));
     if (path.isEmpty()) return;
     const auto written =
         writeFile(path.toStdString(), m_text->toPlainText().toStdString(), IfExists::Replace);
@@ -242,19 +290,29 @@ class ExperimentsDock : public QWidget {
       m_play->cancel();
       return;
     }
+    play({});
+  }
+
+  /// Into this folder, which has some of the runs, or into a new one.
+  void play(const QString& folder) {
     auto experiment = link::experimentFromJson(m_text->toPlainText().toStdString(), "File", {}, {});
     if (!experiment) {
       m_tabs->setCurrentWidget(m_text);
       return showStatus(QString::fromStdString(experiment.error().text()), true);
     }
     setPlaying(true);
-    showStatus(QStringLiteral("Playing %1 runs…").arg(experiment->allRuns()));
-    m_play->start(std::move(*experiment), folderOfExperiments());
+    m_progressText = QStringLiteral("%1 runs").arg(experiment->allRuns());
+    showStatus(QStringLiteral("Playing %1…").arg(m_progressText));
+    if (folder.isEmpty())
+      m_play->start(std::move(*experiment), folderOfExperiments());
+    else
+      m_play->resume(std::move(*experiment), folder);
   }
 
   void setPlaying(bool on) {
     m_start->setEnabled(true);
     m_start->setText(on ? QStringLiteral("Cancel") : QStringLiteral("Start"));
+    if (on) m_continue->hide();
     m_progress->setVisible(on);
     m_progress->setRange(0, 0);
     m_choice->setEnabled(!on);
@@ -263,21 +321,22 @@ class ExperimentsDock : public QWidget {
     m_tabs->showPlaying(on);
   }
 
-  void showProgress(qulonglong done, qulonglong all, double seconds) {
+  void showProgress(qulonglong done, qulonglong all, double each) {
     m_progress->setRange(0, 1000);
     m_progress->setValue(
         static_cast<int>(1000.0 * double(done) / double(std::max<qulonglong>(all, 1))));
-    const double rate = double(done) / std::max(seconds, 1e-9);
+    const double rate = 1.0 / std::max(each, 1e-9);
+    m_progressText = QStringLiteral("%1 of %2 runs").arg(done).arg(all);
     const double left = double(all - done) / std::max(rate, 1e-9);
-    showStatus(QStringLiteral("%1 of %2 runs, %3 runs/s, %4 left")
-                   .arg(done)
-                   .arg(all)
+    showStatus(QStringLiteral("%1, %2 runs/s, %3 left")
+                   .arg(m_progressText)
                    .arg(rate, 0, 'f', rate < 10.0 ? 1 : 0)
                    .arg(durationText(left)));
   }
 
   void showResults(const PlayedPtr& played) {
     setPlaying(false);
+    offerToContinue();
     m_shown = played;
     m_tabs->showResults(played);
     std::size_t runs = 0;
@@ -304,6 +363,9 @@ class ExperimentsDock : public QWidget {
                      ? QStringLiteral("; all assertions hold")
                      : QStringLiteral("; %1 of %2 assertions fail").arg(failed).arg(checks.size());
     }
+    for (const std::string& text : link::identicalTexts(played->summary)) {
+      message += QStringLiteral(". ") + QString::fromStdString(text).chopped(1);
+    }
     showStatus(message + QStringLiteral(". Results: ") + played->folder,
                notPlayed.isEmpty() && failed > 0);
     if (m_tabs->currentWidget() == m_form || m_tabs->currentWidget() == m_text) {
@@ -315,6 +377,7 @@ class ExperimentsDock : public QWidget {
   ExperimentPlay* m_play;
   QComboBox* m_choice;
   QPushButton* m_start;
+  QPushButton* m_continue;
   QPushButton* m_report;
   QProgressBar* m_progress;
   QLabel* m_message;
@@ -322,6 +385,8 @@ class ExperimentsDock : public QWidget {
   ExperimentForm* m_form;
   QPlainTextEdit* m_text;
   PlayedPtr m_shown;
+  QString m_unfinished;  // folder with a part of the runs; empty: none
+  QString m_progressText;
 };
 
 }  // namespace

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "results_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include <ui/base/theme.h>
 
@@ -11,16 +13,37 @@ namespace {
 constexpr int fixedRunColumns = 5;
 const QString minusSign = QStringLiteral("−"), nothing = QStringLiteral("–");
 
-QString text(double value, bool rate = false) {
+/// How a column of numbers is written, so that their decimal points stand beneath each other.
+struct Form {
+  bool isRate = false;
+  int decimals = 0;
+};
+
+/// Four digits of the largest of these values; none behind the point if all are whole numbers.
+Form formFor(std::initializer_list<double> values, bool isRate) {
+  double largest = 0.0;
+  bool isWhole = true;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    largest = std::max(largest, std::abs(value));
+    isWhole = isWhole && value == std::floor(value);
+  }
+  constexpr int digits = 4, most = 6;
+  const int before = largest > 0.0 ? static_cast<int>(std::floor(std::log10(largest))) + 1 : 1;
+  return {isRate, isRate ? 1 : isWhole ? 0 : std::clamp(digits - before, 0, most)};
+}
+
+QString text(double value, const Form& form) {
   if (!std::isfinite(value)) return nothing;
-  QString out = rate ? QString::number(100.0 * value, 'f', 1) + QStringLiteral(" %")
-                     : QString::number(value, 'g', 4);
+  QString out = form.isRate
+                    ? QString::number(100.0 * value, 'f', form.decimals) + QStringLiteral(" %")
+                    : QString::number(value, 'f', form.decimals);
   return out.replace(QLatin1Char('-'), minusSign);
 }
 
-QString text(const std::optional<link::Interval>& interval, bool rate) {
+QString text(const std::optional<link::Interval>& interval, const Form& form) {
   if (!interval) return nothing;
-  return QStringLiteral("%1 to %2").arg(text(interval->low, rate), text(interval->high, rate));
+  return QStringLiteral("%1 to %2").arg(text(interval->low, form), text(interval->high, form));
 }
 
 /// Of a test: more digits say nothing.
@@ -55,6 +78,7 @@ void ResultsModel::show(const PlayedPtr& played) {
   m_rows.clear();
   m_runs.clear();
   m_metrics.clear();
+  m_decimals.clear();
   if (played) fill();
   endResetModel();
 }
@@ -69,11 +93,13 @@ void ResultsModel::fill() {
       for (const std::size_t m : telling) {
         for (const link::ConditionSummary& condition : s.conditions) {
           const link::Summary& one = condition.metrics[m];
-          const bool rate = s.metrics[m].rate;
-          const auto plain = [&](double value) { return rate ? nothing : text(value); };
+          const bool isRate = s.metrics[m].rate;
+          const Form form =
+              formFor({one.moments.mean, one.moments.deviation, one.median, one.p95}, isRate);
+          const auto plain = [&](double value) { return isRate ? nothing : text(value, form); };
           m_rows.append({title(s.metrics[m]), qs(condition.name),
-                         QString::number(one.moments.count), text(one.moments.mean, rate),
-                         text(one.mean95, rate), plain(one.moments.deviation), plain(one.median),
+                         QString::number(one.moments.count), text(one.moments.mean, form),
+                         text(one.mean95, form), plain(one.moments.deviation), plain(one.median),
                          plain(one.p95)});
         }
       }
@@ -100,7 +126,16 @@ void ResultsModel::fill() {
     case Kind::Runs:
       m_heads = {"Run", "Condition", "Seed", "Score", "Repeatable"};
       m_metrics = telling;
-      for (const std::size_t m : m_metrics) m_heads.append(title(s.metrics[m]));
+      for (const std::size_t m : m_metrics) {
+        m_heads.append(title(s.metrics[m]));
+        int decimals = 0;
+        for (const auto& condition : m_played->table.conditions) {
+          for (const double value : condition.columns[m]) {
+            decimals = std::max(decimals, formFor({value}, false).decimals);
+          }
+        }
+        m_decimals.push_back(decimals);
+      }
       for (std::size_t number = 1; number <= m_played->experiment.allRuns(); ++number) {
         const link::RunPlace place = link::placeOf(m_played->experiment, number);
         if (m_played->table.conditions[place.condition].played[place.index])
@@ -113,8 +148,9 @@ void ResultsModel::fill() {
 void ResultsModel::addComparison(const link::MetricInfo& metric, const std::string& of,
                                  const std::string& minus, const link::Comparison& one) {
   const bool tested = one.test != link::Comparison::Test::None;
-  m_rows.append({title(metric), qs(of), qs(minus), text(one.difference, metric.rate),
-                 text(one.difference95, metric.rate), qs(one.testText()),
+  const Form form = formFor({one.difference}, metric.rate);
+  m_rows.append({title(metric), qs(of), qs(minus), text(one.difference, form),
+                 text(one.difference95, form), qs(one.testText()),
                  tested ? probability(one.p) : nothing,
                  one.welch ? statistic(one.welch->t) : nothing,
                  one.welch ? statistic(one.welch->hedgesG) : nothing});
@@ -142,17 +178,31 @@ QVariant ResultsModel::runCell(int row, int column, bool sorting) const {
     const qulonglong seed = link::seedOf(m_played->experiment, place);
     return sorting ? QVariant(seed) : QString::number(seed);
   }
-  const auto& [goals, against, repeatable] =
-      m_played->table.conditions[place.condition].outcomes[place.index];
+  const auto& outcome = m_played->table.conditions[place.condition].outcomes[place.index];
   if (column == 3) {
-    if (sorting) return goals - against;
-    return QStringLiteral("%1 : %2").arg(goals).arg(against);
+    if (sorting) return outcome.goals - outcome.goalsAgainst;
+    return QStringLiteral("%1 : %2").arg(outcome.goals).arg(outcome.goalsAgainst);
   }
-  if (column == 4) return repeatable ? QStringLiteral("yes") : QStringLiteral("no");
-  const std::size_t metric = m_metrics[static_cast<std::size_t>(column - fixedRunColumns)];
+  if (column == 4) return outcome.repeatable ? QStringLiteral("yes") : QStringLiteral("no");
+  const auto index = static_cast<std::size_t>(column - fixedRunColumns);
+  const std::size_t metric = m_metrics[index];
   const double value = m_played->table.conditions[place.condition].columns[metric][place.index];
   if (sorting) return std::isfinite(value) ? value : -1e300;
-  return text(value);
+  return text(value, {false, m_decimals[index]});
+}
+
+bool ResultsModel::isNumeric(int column) const {
+  switch (m_kind) {
+    case Kind::Measured:
+      return column >= 2;
+    case Kind::Differences:
+      return column >= 3 && column != 5;  // the test's name
+    case Kind::Assertions:
+      return false;
+    case Kind::Runs:
+      return column != 1 && column != 4;  // condition, repeatable
+  }
+  return false;
 }
 
 QVariant ResultsModel::data(const QModelIndex& index, int role) const {
@@ -161,6 +211,7 @@ QVariant ResultsModel::data(const QModelIndex& index, int role) const {
     if (m_kind == Kind::Runs) return runCell(index.row(), index.column(), role == Qt::UserRole);
     return m_rows[index.row()][index.column()];
   }
+  if (role == Qt::TextAlignmentRole) return headerData(index.column(), Qt::Horizontal, role);
   if (role == Qt::ForegroundRole && m_kind == Kind::Assertions && index.column() == 0 &&
       m_rows[index.row()][0] == QStringLiteral("NO")) {
     return theme().errorText;
@@ -172,8 +223,12 @@ QVariant ResultsModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant ResultsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-  if (orientation != Qt::Horizontal || role != Qt::DisplayRole || section >= m_heads.size())
-    return {};
+  if (orientation != Qt::Horizontal || section >= m_heads.size()) return {};
+  // A column of numbers stands beneath its title.
+  if (role == Qt::TextAlignmentRole && isNumeric(section)) {
+    return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
+  }
+  if (role != Qt::DisplayRole) return {};
   return m_heads[section];
 }
 

@@ -33,6 +33,7 @@ class ResultsModel : public QAbstractTableModel {
   void addComparison(const link::MetricInfo& metric, const std::string& of,
                      const std::string& minus, const link::Comparison& one);
   QVariant runCell(int row, int column, bool sorting) const;
+  bool isNumeric(int column) const;
 
   Kind m_kind;
   PlayedPtr m_played;
@@ -40,6 +41,7 @@ class ResultsModel : public QAbstractTableModel {
   QList<QStringList> m_rows;           // of all kinds but Runs
   std::vector<std::size_t> m_runs;     // numbers of the runs that are there
   std::vector<std::size_t> m_metrics;  // columns of runs
+  std::vector<int> m_decimals;         // of these columns
 };
 
 }  // namespace pitchboard::ui

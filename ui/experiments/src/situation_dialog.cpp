@@ -30,11 +30,11 @@ namespace pitchboard::ui {
 namespace {
 
 const QString folderKey = QStringLiteral("experiments/tests");
-constexpr int usualRuns = 10, usualSpread = 5, mostTestRuns = 10'000;
-constexpr double usualSeconds = 60.0, longest = 3600.0, metre = 100.0;
+constexpr int defaultRuns = 10, defaultSpread = 5, maxTestRuns = 10'000;
+constexpr double defaultSeconds = 60.0, longest = 3600.0, metre = 100.0;
 constexpr double headingSpread = 5.0;  // degrees, while starts differ at all
 
-QString usualFolder(const QSettings* settings) {
+QString defaultFolder(const QSettings* settings) {
   QString kept = settings == nullptr ? QString() : settings->value(folderKey).toString();
   if (!kept.isEmpty()) return kept;
   return QDir(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation))
@@ -63,7 +63,7 @@ SituationDialog::SituationDialog(FramePtr frame, std::optional<link::Scenario> b
       m_base(std::move(base)),
       m_settings(settings),
       m_name(new QLineEdit(this)),
-      m_folder(new QLineEdit(QDir::toNativeSeparators(usualFolder(settings)), this)),
+      m_folder(new QLineEdit(QDir::toNativeSeparators(defaultFolder(settings)), this)),
       m_team(new QComboBox(this)),
       m_behaviour(new QComboBox(this)),
       m_poses(new QComboBox(this)),
@@ -101,12 +101,12 @@ void SituationDialog::makeForm() {
   form->addRow(QStringLiteral("Assertions"), makeAssertions());
   form->addRow(QStringLiteral("A run ends after"), makeEnds());
   m_runs->setObjectName(QStringLiteral("testRuns"));
-  m_runs->setRange(1, mostTestRuns);
-  m_runs->setValue(usualRuns);
+  m_runs->setRange(1, maxTestRuns);
+  m_runs->setValue(defaultRuns);
   m_runs->setToolTip(QStringLiteral("Each run has its own seed"));
   m_spread->setObjectName(QStringLiteral("testSpread"));
   m_spread->setRange(0, 100);
-  m_spread->setValue(usualSpread);
+  m_spread->setValue(defaultSpread);
   m_spread->setSuffix(QStringLiteral(" cm"));
   m_spread->setToolTip(QStringLiteral(
       "Largest distance between a robot's start and its position here; 0 keeps it exact"));
@@ -161,7 +161,7 @@ void SituationDialog::makeRobotRows(QFormLayout* form) {
   m_noCalls->setToolTip(
       QStringLiteral("Keeps the game state: no penalties, set plays or whistles"));
   form->addRow(QStringLiteral("Referee"), m_noCalls);
-  form->setRowVisible(m_noCalls, m_frame->referee.has_value());
+  form->setRowVisible(m_noCalls, m_frame->game.has_value());
 }
 
 QWidget* SituationDialog::makeFolder() {
@@ -213,7 +213,7 @@ QWidget* SituationDialog::makeEnds() {
   m_seconds->setObjectName(QStringLiteral("testSeconds"));
   m_seconds->setRange(1.0, longest);
   m_seconds->setDecimals(1);
-  m_seconds->setValue(usualSeconds);
+  m_seconds->setValue(defaultSeconds);
   m_seconds->setSuffix(QStringLiteral(" s"));
   m_stuck->setToolTip(QStringLiteral("Neither the ball nor a robot of the team moves for %1 s")
                           .arg(link::situationStuck));

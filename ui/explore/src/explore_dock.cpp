@@ -1,37 +1,145 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/explore/explore_dock.h>
 
-#include <QComboBox>
-#include <QGridLayout>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPainter>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QSlider>
-#include <QTableWidget>
+#include <QWidget>
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <ui/base/explanation.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/scrolled_form.h>
-#include <ui/base/table_style.h>
+#include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 #include <ui/explore/explorer.h>
-#include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
-
-#include "goal_chart.h"
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
-namespace {
 
-QString signedText(double value) {
-  return (value < 0.0 ? QString() : QStringLiteral("+")) + numberText(value, 3);
+/// The probability of a goal of each team until a time after the explored moment, with its 95 %
+/// band, and a line at the time that the field shows. UI thread only.
+class GoalChart : public QWidget {
+ public:
+  explicit GoalChart(QWidget* parent);
+  /// Null: an empty chart. It is read now and not kept.
+  void show(const ExploredMoment* found, int second);
+  QSize sizeHint() const override;
+  QSize minimumSizeHint() const override { return sizeHint(); }
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+
+ private:
+  struct Line {
+    std::optional<TeamColor> team;
+    std::vector<link::Share> shares;
+  };
+  std::array<Line, 2> m_lines;
+  double m_most = 0.1;  // at the upper edge
+  int m_second = 0;
+};
+
+/// The team's colour; a neutral one if the team is unknown.
+QColor teamLineColor(const std::optional<TeamColor>& team) {
+  return team ? theme().team(*team) : theme().secondaryText;
 }
 
-QString shareText(const rollout::Share& share) {
+GoalChart::GoalChart(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("goalChart"));
+  setAccessibleName(QStringLiteral("Probability of a goal over time"));
+}
+
+QSize GoalChart::sizeHint() const {
+  return {scaled(this, 200), scaled(this, 110)};
+}
+
+void GoalChart::show(const ExploredMoment* found, int second) {
+  m_second = second;
+  double most = 0.0;
+  for (std::size_t side = 0; side < m_lines.size(); ++side) {
+    Line& line = m_lines[side];
+    line = {};
+    if (found == nullptr) continue;
+    line.team = found->teams[side];
+    for (const link::ExploredTime& time : found->result.times) {
+      line.shares.push_back(side == 0 ? time.goalLeft : time.goalRight);
+      most = std::max(most, line.shares.back().high);
+    }
+  }
+  constexpr std::array edges{0.05, 0.1, 0.2, 0.5};
+  const auto fits = std::ranges::lower_bound(edges, most);
+  m_most = fits == edges.end() ? 1.0 : *fits;
+  update();
+}
+
+void GoalChart::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setFont(themeFont(TypeRole::Secondary));
+  const QFontMetrics metrics = painter.fontMetrics();
+  const QString top = QStringLiteral("%1 %").arg(100.0 * m_most);
+  const int left = metrics.horizontalAdvance(QStringLiteral("100 %")) + scaled(this, 4);
+  const int below = metrics.height() + scaled(this, 2);
+  const QRectF area(left, metrics.height() / 2.0, width() - left - scaled(this, 8),
+                    height() - below - metrics.height() / 2.0);
+  const auto at = [&](double second, double share) {
+    return QPointF(area.left() + area.width() * second / Explorer::seconds,
+                   area.bottom() - area.height() * share / m_most);
+  };
+  painter.fillRect(area, theme().view);
+  painter.setPen(theme().innerLine);
+  painter.drawRect(area);
+  painter.drawLine(at(0, m_most / 2), at(Explorer::seconds, m_most / 2));
+  painter.setPen(theme().secondaryText);
+  const auto label = [&](double share, const QString& text) {
+    painter.drawText(QRectF(0, at(0, share).y() - metrics.height() / 2.0, left - scaled(this, 4),
+                            metrics.height()),
+                     Qt::AlignRight | Qt::AlignVCenter, text);
+  };
+  label(m_most, top);
+  label(0.0, QStringLiteral("0 %"));
+  for (int second = 0; second <= Explorer::seconds; second += 10) {
+    const QString text =
+        second == Explorer::seconds ? QStringLiteral("%1 s").arg(second) : QString::number(second);
+    const double wide = metrics.horizontalAdvance(text);
+    const double x = std::min(at(second, 0).x() - wide / 2.0, width() - wide);
+    painter.drawText(QPointF(x, height() - metrics.descent()), text);
+  }
+  for (const Line& line : m_lines) {
+    if (line.shares.empty()) continue;
+    QPolygonF band, middle;
+    for (std::size_t i = 0; i < line.shares.size(); ++i) {
+      const auto second = static_cast<double>(i);
+      band << at(second, line.shares[i].high);
+      middle << at(second, line.shares[i].value);
+    }
+    for (std::size_t i = line.shares.size(); i-- > 0;) {
+      band << at(static_cast<double>(i), line.shares[i].low);
+    }
+    QColor fill = teamLineColor(line.team);
+    painter.setPen(QPen(fill, 1.6));
+    painter.drawPolyline(middle);
+    fill.setAlphaF(0.22F);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(fill);
+    painter.drawPolygon(band);
+    painter.setBrush(Qt::NoBrush);
+  }
+  painter.setPen(QPen(theme().accentLine, 1.0));
+  painter.drawLine(at(m_second, 0), at(m_second, m_most));
+}
+
+namespace {
+
+QString shareText(const link::Share& share) {
   return QStringLiteral("%1 % (%2 to %3)")
       .arg(numberText(100.0 * share.value, 1), numberText(100.0 * share.low, 1),
            numberText(100.0 * share.high, 1));
@@ -45,11 +153,8 @@ class ExploreDock : public ScrolledForm {
     addResult(form(), column());
     finishForm();
     connect(m_explorer, &Explorer::changed, this, [this] { showAll(); });
-    connect(m_parts.source, &FrameSource::frameReceived, this, [this] { showRobots(); });
-    connect(m_parts.source, &FrameSource::restarted, this, [this] { showRobots(); });
-    connect(m_parts.selection, &RobotSelection::changed, this, [this](const auto& ids) {
-      if (!ids.empty()) m_explorer->setRobot(ids.front());
-    });
+    connect(m_parts.shown, &FrameSource::frameReceived, this, [this] { showPossible(); });
+    connect(m_parts.shown, &FrameSource::restarted, this, [this] { showPossible(); });
     showAll();
   }
 
@@ -60,28 +165,17 @@ class ExploreDock : public ScrolledForm {
   }
   void showEvent(QShowEvent* event) override {
     ScrolledForm::showEvent(event);
-    showRobots();
+    showPossible();
   }
 
  private:
   void addStart(QWidget* form, QVBoxLayout* column) {
-    auto* row = new QHBoxLayout;
     m_start = new QPushButton(QStringLiteral("Explore from this moment"), form);
     m_start->setObjectName(QStringLiteral("exploreStart"));
     m_start->setToolTip(QStringLiteral(
         "Plays short games from the moment shown, in the background. Nothing is sent to robots."));
     connect(m_start, &QPushButton::clicked, m_explorer, &Explorer::start);
-    row->addWidget(m_start, 1);
-    m_robot = new QComboBox(form);
-    m_robot->setObjectName(QStringLiteral("exploreRobot"));
-    m_robot->setAccessibleName(QStringLiteral("Robot"));
-    m_robot->setToolTip(QStringLiteral("Compares the actions of this robot"));
-    connect(m_robot, &QComboBox::activated, this, [this](int index) {
-      m_explorer->setRobot(index > 0 ? std::optional(m_robots[static_cast<std::size_t>(index - 1)])
-                                     : std::nullopt);
-    });
-    row->addWidget(m_robot);
-    column->addLayout(row);
+    column->addWidget(m_start);
     auto* running = new QHBoxLayout;
     m_progress = new QProgressBar(form);
     m_progress->setObjectName(QStringLiteral("exploreProgress"));
@@ -130,60 +224,19 @@ class ExploreDock : public ScrolledForm {
     rows->addWidget(m_goals);
     m_chart = new GoalChart(m_result);
     rows->addWidget(m_chart);
-    m_actions = new QTableWidget(0, 3, m_result);
-    m_actions->setObjectName(QStringLiteral("exploreActions"));
-    m_actions->setHorizontalHeaderLabels(
-        {QStringLiteral("Action"), QStringLiteral("Goals"), QStringLiteral("Below the best")});
-    m_actions->horizontalHeaderItem(1)->setToolTip(
-        QStringLiteral("Expected goals for minus goals against in 30 s"));
-    m_actions->horizontalHeaderItem(2)->setToolTip(
-        QStringLiteral("How much worse than the best action, with the 95 % confidence interval"));
-    styleTable(m_actions);
-    m_actions->setSelectionMode(QAbstractItemView::NoSelection);
-    m_actions->setFocusPolicy(Qt::NoFocus);
-    m_actions->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    rows->addWidget(m_actions);
-    m_verdict = new QLabel(m_result);
-    m_verdict->setObjectName(QStringLiteral("exploreVerdict"));
-    m_verdict->setWordWrap(true);
-    m_verdict->setFont(themeFont(TypeRole::Body, true));
-    rows->addWidget(m_verdict);
     column->addWidget(m_result);
     m_notes = makeExplanation({}, form);
     m_notes->setObjectName(QStringLiteral("exploreNotes"));
     column->addWidget(m_notes);
   }
 
-  void showRobots() {
+  void showPossible() {
     if (!isVisible()) return;  // frames come sixty times a second
-    const FramePtr frame = m_parts.source->frame();
+    const FramePtr frame = m_parts.shown->frame();
     m_start->setEnabled(frame && !frame->robots.empty());
-    std::vector<RobotKey> robots;
-    QStringList names;
-    if (frame) {
-      for (const link::RobotFrame& robot : frame->robots) {
-        robots.push_back(robot.key);
-        names << robotName(robot);
-      }
-    }
-    if (robots == m_robots && names == m_names && m_robot->count() > 0) return;
-    m_robots = std::move(robots);
-    m_names = names;
-    m_robot->clear();
-    m_robot->addItem(QStringLiteral("No robot"));
-    m_robot->addItems(m_names);
-    showRobot();
-  }
-
-  void showRobot() {
-    const auto robot = m_explorer->robot();
-    const auto found = robot ? std::ranges::find(m_robots, *robot) : m_robots.end();
-    m_robot->setCurrentIndex(
-        found == m_robots.end() ? 0 : static_cast<int>(found - m_robots.begin()) + 1);
   }
 
   void showAll() {
-    showRobot();
     const bool running = m_explorer->isRunning();
     const ExploredMoment* found = m_explorer->found();
     const bool any = found != nullptr && !found->result.times.empty();
@@ -205,18 +258,16 @@ class ExploreDock : public ScrolledForm {
     if (!any) return;
     m_goals->setText(goalText(*found));
     m_chart->show(found, m_explorer->second());
-    showActions(found->result);
   }
 
   QString stateText(const ExploredMoment* found, bool any) const {
     if (!m_explorer->problem().isEmpty()) return m_explorer->problem();
     if (found == nullptr) {
       return QStringLiteral(
-                 "Shows where the ball may go in the next %1 s, how likely a goal is, and which "
-                 "action is best for the chosen robot.")
+                 "Shows where the ball may go in the next %1 s, and how likely a goal is.")
           .arg(Explorer::seconds);
     }
-    const QString from = momentText(found->time, 2, m_parts.timeline->clock());
+    const QString from = momentText(found->time, 2, m_parts.shown->clock());
     if (!any) return QStringLiteral("From %1").arg(from);
     return QStringLiteral("From %1 · %2 rollouts")
         .arg(from, countText(static_cast<qulonglong>(found->result.rollouts)));
@@ -229,7 +280,7 @@ class ExploreDock : public ScrolledForm {
       const QString name = team        ? capitalised(info(*team).name)
                            : side == 0 ? QStringLiteral("Left team")
                                        : QStringLiteral("Right team");
-      const rollout::Share& share = side == 0 ? result.last().goalLeft : result.last().goalRight;
+      const link::Share& share = side == 0 ? result.last().goalLeft : result.last().goalRight;
       return QStringLiteral("<span style='color:%1'>■</span> %2 scores: %3")
           .arg(teamLineColor(team).name(), name, shareText(share));
     };
@@ -237,46 +288,9 @@ class ExploreDock : public ScrolledForm {
            QStringLiteral("<br>") + line(1);
   }
 
-  void showActions(const link::ExploreResult& result) {
-    m_actions->setVisible(!result.actions.empty());
-    m_verdict->setVisible(!result.actions.empty());
-    m_verdict->setText(QString::fromStdString(result.verdict()));
-    m_actions->setRowCount(static_cast<int>(result.actions.size()));
-    for (std::size_t i = 0; i < result.actions.size(); ++i) {
-      const link::ExploredAction& action = result.actions[i];
-      const bool best = i == result.best;
-      const QString behind = best ? QStringLiteral("best")
-                                  : QStringLiteral("%1 ± %2").arg(
-                                        numberText(action.behind.value, 3),
-                                        numberText(action.behind.high - action.behind.value, 3));
-      const std::array texts{QString::fromStdString(action.text), signedText(action.value.value),
-                             behind};
-      for (int column = 0; column < 3; ++column) {
-        auto* item = new QTableWidgetItem(texts[static_cast<std::size_t>(column)]);
-        QFont font = m_actions->font();
-        font.setBold(best);
-        item->setFont(font);
-        if (column == 1) {
-          item->setToolTip(QStringLiteral("95 %: %1 to %2")
-                               .arg(signedText(action.value.low), signedText(action.value.high)));
-        }
-        m_actions->setItem(static_cast<int>(i), column, item);
-      }
-    }
-    m_actions->resizeColumnToContents(0);
-    m_actions->resizeColumnToContents(1);
-    m_actions->setFixedHeight(m_actions->horizontalHeader()->sizeHint().height() +
-                              m_actions->rowCount() *
-                                  m_actions->verticalHeader()->defaultSectionSize() +
-                              2 * m_actions->frameWidth());
-  }
-
   ExploreDockParts m_parts;
   Explorer* m_explorer;
-  std::vector<RobotKey> m_robots;  // in the box, after "No robot"
-  QStringList m_names;
   QPushButton* m_start;
-  QComboBox* m_robot;
   QProgressBar* m_progress;
   QPushButton* m_cancel;
   QPushButton* m_clear;
@@ -286,8 +300,6 @@ class ExploreDock : public ScrolledForm {
   QLabel* m_second;
   QLabel* m_goals;
   GoalChart* m_chart;
-  QTableWidget* m_actions;
-  QLabel* m_verdict;
   QLabel* m_notes;
 };
 

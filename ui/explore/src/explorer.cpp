@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -26,30 +25,19 @@ std::array<std::optional<TeamColor>, 2> teamsOf(const link::ExploreStart& start,
   return teams;
 }
 
-ForecastPtr forecastOf(const ExploredMoment* found, int second) {
+BallHeatPtr heatOf(const ExploredMoment* found, int second) {
   if (found == nullptr || found->result.times.empty()) return nullptr;
   const ExploreResult& result = found->result;
-  auto forecast = std::make_shared<Forecast>();
   const std::size_t at = std::min(static_cast<std::size_t>(second), result.times.size() - 1);
-  forecast->heat = std::make_shared<const link::BallHeat>(
-      link::BallHeat{result.columns, result.rows, result.times[at].heat});
-  if (!result.actions.empty()) {
-    const link::ExploredAction& best = result.actions[result.best];
-    const QString sign = best.value.value < 0.0 ? QString() : QStringLiteral("+");
-    forecast->best = ForecastAction{
-        best.from, best.to,
-        QStringLiteral("%1  %2%3")
-            .arg(QString::fromStdString(best.text), sign, numberText(best.value.value, 2)),
-        result.isClear()};
-  }
-  return forecast;
+  return std::make_shared<const BallHeat>(
+      BallHeat{result.columns, result.rows, result.times[at].heat});
 }
 
 }  // namespace
 
 Explorer::Explorer(const Parts& parts, QObject* parent) : QObject(parent), m_parts(parts) {
-  connect(m_parts.source, &SourceSwitch::changed, this, &Explorer::clear);
-  connect(m_parts.source, &FrameSource::restarted, this, &Explorer::clear);
+  connect(m_parts.shown, &ShownMoment::sourceChosen, this, &Explorer::clear);
+  connect(m_parts.shown, &FrameSource::restarted, this, &Explorer::clear);
 }
 
 Explorer::~Explorer() {
@@ -57,22 +45,16 @@ Explorer::~Explorer() {
   m_worker.waitForDone();
 }
 
-void Explorer::setRobot(std::optional<RobotKey> robot) {
-  if (robot == m_robot) return;
-  m_robot = robot;
-  emit changed();
-}
-
 void Explorer::start() {
   cancel();
-  const FramePtr frame = m_parts.source->frame();
+  const FramePtr frame = m_parts.shown->frame();
   if (!frame) return;
-  const auto scenario = scenarioBehind(*m_parts.source, *m_parts.match, *m_parts.replay);
+  const auto scenario = scenarioBehind(*m_parts.shown, *m_parts.match, *m_parts.replay);
   link::ExploreStartOptions options;
   // The true match is shown only where it is simulated.
-  options.useTruth = m_parts.source->kind() == SourceKind::Simulate;
+  options.useTruth = m_parts.shown->source() == m_parts.match;
   options.base = scenario ? &*scenario : nullptr;
-  options.earlier = [this](double time) { return m_parts.source->frameAt(time); };
+  options.earlier = [this](double time) { return m_parts.shown->frameAt(time); };
   auto start = link::exploreStart(*frame, options);
   m_found.reset();
   m_problem.clear();
@@ -87,8 +69,6 @@ void Explorer::start() {
   m_found->start = *start;
   link::ExploreOptions explore;
   explore.seconds = seconds;
-  if (m_robot && std::ranges::count(start->robots, *m_robot) > 0) explore.robot = m_robot;
-  m_found->robot = explore.robot;
   m_running = std::make_shared<std::atomic<bool>>(false);
   m_worker.start([this, job = m_running, begin = std::move(*start), explore] {
     const auto result = link::explore(
@@ -145,7 +125,7 @@ void Explorer::showSecond(int second) {
 
 void Explorer::notify() {
   emit changed();
-  emit forecastChanged(forecastOf(m_found.get(), m_second));
+  emit heatChanged(heatOf(m_found.get(), m_second));
 }
 
 }  // namespace pitchboard::ui

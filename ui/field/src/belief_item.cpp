@@ -58,7 +58,7 @@ QRectF BeliefItem::computeBounds() const {
   QRectF bounds;
   const double margin = m_style->metres(2.0);
   if (m_look.believed) {
-    const double radius = std::max({m_look.sigma, leastRadius, ghostRadius() * noseReach}) + margin;
+    const double radius = std::max({m_look.sigma, minRadius, ghostRadius() * noseReach}) + margin;
     const QPointF at = toScene(m_look.believed->position);
     bounds = QRectF(at.x() - radius, at.y() - radius, 2 * radius, 2 * radius);
     if (m_look.stands) {
@@ -90,12 +90,12 @@ void BeliefItem::paintDisc(QPainter* painter, const ScreenPainting& screen) cons
   const QColor team = theme().team(m_look.team);
   // In half pixels, whole ones or two as it is wider, so that a changing uncertainty still finds
   // its stamp.
-  const double across = 2 * std::max(m_look.sigma, leastRadius) * scale;
+  const double across = 2 * std::max(m_look.sigma, minRadius) * scale;
   const int grain = across > 80 ? 4 : across > 40 ? 2 : 1;
   const int size = static_cast<int>(std::lround(across / grain)) * grain;
   const double radius = size / 2.0;
   // One that knows nothing must not cover the field: what is spread over more ground is thinner.
-  const double thin = std::min(1.0, fullUntil / std::max(m_look.sigma, leastRadius));
+  const double thin = std::min(1.0, fullUntil / std::max(m_look.sigma, minRadius));
   QColor fill = team;
   fill.setAlpha(static_cast<int>(std::lround((isDarkTheme() ? 38 : 56) * thin)));
   QPen pen(onGrass(isDarkTheme() ? team : team.darker(115), std::max(0.45, std::sqrt(thin))), 1.3);

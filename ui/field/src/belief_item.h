@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include <simcore/world/team_color.h>
+#include <base/team_color.h>
 
 #include "field_item.h"
 
@@ -41,7 +41,7 @@ class BeliefItem : public FieldItem {
   /// From this distance on a line joins a ghost to its robot, m.
   static constexpr double apart = 0.5;
   /// The published telemetry draws no smaller circle (system.md section 7).
-  static constexpr double leastRadius = 0.15;
+  static constexpr double minRadius = 0.15;
 
   using FieldItem::FieldItem;
 

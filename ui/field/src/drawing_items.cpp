@@ -147,16 +147,16 @@ void DrawingItem::paintShape(QPainter* painter, const ScreenPainting& screen,
   }
 }
 
-void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotKey>& selection) {
+void DrawingItems::show(const link::MatchFrame* frame, const std::vector<RobotUid>& selection) {
   decltype(m_items) before;
   before.swap(m_items);
   if (frame == nullptr || !m_style->shows(FieldLayer::Drawings)) return;
   for (const telemetry::RobotDrawings& drawn : frame->drawings) {
+    const link::RobotFrame* robot = frame->robot(drawn.robot);
     if (m_style->drawings.onlySelected &&
-        std::ranges::find(selection, drawn.robot) == selection.end()) {
+        (robot == nullptr || std::ranges::find(selection, robot->uid) == selection.end())) {
       continue;
     }
-    const link::RobotFrame* robot = frame->robot(drawn.robot);
     for (const auto& layer : drawn.layers) {
       const auto origin = link::drawingOrigin(layer->frame, robot);
       if (!origin || !m_style->drawings.shows(drawn.robot, layer->name)) continue;

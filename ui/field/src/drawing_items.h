@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <base/robot_key.h>
-#include <simcore/world/team_color.h>
+#include <base/team_color.h>
 #include <telemetry/wire/drawing_store.h>
 
 #include "field_item.h"
@@ -52,7 +52,7 @@ class DrawingItems {
   DrawingItems(QGraphicsScene* scene, const FieldStyle* style, double height)
       : m_scene(scene), m_style(style), m_height(height) {}
 
-  void show(const link::MatchFrame* frame, const std::vector<RobotKey>& selection);
+  void show(const link::MatchFrame* frame, const std::vector<RobotUid>& selection);
 
  private:
   QGraphicsScene* m_scene;

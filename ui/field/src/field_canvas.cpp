@@ -16,8 +16,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double leastScale = 8.0;  // pixels per metre
-constexpr double mostScale = 2000.0;
+constexpr double minScale = 8.0;  // pixels per metre
+constexpr double maxScale = 2000.0;
 constexpr double zoomStep = 1.15;     // for one notch of the wheel
 constexpr double notch = 120.0;       // eighths of a degree
 constexpr double roundField = 1.02;   // air round a field that fits
@@ -50,8 +50,8 @@ double FieldCanvas::fittingScale() const {
   const sim::FieldSpec& field = m_scene->style().field;
   const double width = (field.length + 2 * field.border) * roundField;
   const double height = (field.width + 2 * field.border) * roundField;
-  return std::clamp(std::min(viewport()->width() / width, viewport()->height() / height),
-                    leastScale, mostScale);
+  return std::clamp(std::min(viewport()->width() / width, viewport()->height() / height), minScale,
+                    maxScale);
 }
 
 void FieldCanvas::setScale(double pixelsPerMetre) {
@@ -75,7 +75,7 @@ void FieldCanvas::setFlipped(bool flipped) {
 
 void FieldCanvas::zoomAt(const QPointF& viewPoint, double factor) {
   const double before = m_scene->style().pixelsPerMetre;
-  const double after = std::clamp(before * factor, std::min(leastScale, before), mostScale);
+  const double after = std::clamp(before * factor, std::min(minScale, before), maxScale);
   if (after == before) return;
   const QPointF held = metresAt(viewPoint);
   m_fitted = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_edits.h>
@@ -24,17 +25,18 @@ void addRobotsAt(QMenu* menu, const QString& words, MatchController* controller,
   QMenu* add = menu->addMenu(themedIcon(QStringLiteral("list-add")), words);
   for (const TeamColorInfo& team : teamColors) {
     const Pose pose{fromScene(metres), team.facesLeft ? std::numbers::pi : 0.0};
-    add->addAction(capitalised(team.name), controller, [controller, color = team.color, pose] {
-      controller->edits()->addRobot(color, pose);
-    });
+    QAction* choice = add->addAction(
+        capitalised(team.name), controller,
+        [controller, color = team.color, pose] { controller->edits()->addRobot(color, pose); });
+    enableUnless(*choice, controller->edits()->whyNoTeam(team.color));
   }
 }
 
 /// What can be done with these robots; `scene` shows them.
 void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
-               const std::vector<RobotKey>& ids, const FieldMenuActions& actions) {
+               const std::vector<RobotUid>& ids, const FieldMenuActions& actions) {
   const bool editable = canEdit(scene, controller);
-  const RobotKey id = ids.front();
+  const RobotUid id = ids.front();
   if (editable) {
     addRobotMenus(menu, controller, scene->frame()->slotsOf(ids));
     menu->addSeparator();
@@ -52,7 +54,7 @@ void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
   trail->setCheckable(true);
   trail->setChecked(!scene->isTrailShown(id));
   QObject::connect(trail, &QAction::toggled, scene, [scene, ids](bool hide) {
-    for (const RobotKey robot : ids) scene->setTrailShown(robot, !hide);
+    for (const RobotUid robot : ids) scene->setTrailShown(robot, !hide);
   });
   if (!editable) return;
   menu->addSeparator();
@@ -64,12 +66,11 @@ void addRobots(QMenu* menu, FieldScene* scene, MatchController* controller,
                   });
 }
 
-void addBall(QMenu* menu, FieldScene* scene, MatchController* controller,
-             const FieldMenuActions& actions) {
+void addBall(QMenu* menu, MatchController* controller, const FieldMenuActions& actions) {
   menu->addAction(QStringLiteral("Ball position and speed…"), menu,
                   [actions] { actions.editBall(); });
   menu->addAction(QStringLiteral("Ball to the centre mark"), controller,
-                  [controller, scene] { controller->edits()->moveBall(scene->ball(), Point{}); });
+                  [controller] { controller->edits()->moveBall(Point{}); });
 }
 
 void addSelecting(QMenu* menu, FieldScene* scene) {
@@ -78,9 +79,9 @@ void addSelecting(QMenu* menu, FieldScene* scene) {
     const auto& ids = scene->selection();
     QAction* action = select->addAction(robotName(robot));
     action->setCheckable(true);
-    action->setChecked(std::find(ids.begin(), ids.end(), robot.key) != ids.end());
+    action->setChecked(std::find(ids.begin(), ids.end(), robot.uid) != ids.end());
     QObject::connect(action, &QAction::triggered, scene,
-                     [scene, id = robot.key] { scene->toggle(id); });
+                     [scene, id = robot.uid] { scene->toggle(id); });
   }
   select->addSeparator();
   select->addAction(QStringLiteral("All"), scene, &FieldScene::selectAll);
@@ -93,10 +94,10 @@ void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
                     const QPointF& metres, const FieldMenuActions& actions) {
   if (!scene->frame()) return;
   if (!scene->frame()->robots.empty()) addSelecting(menu, scene);
-  const std::vector<RobotKey> ids = scene->selection();
+  const std::vector<RobotUid> ids = scene->selection();
   if (!ids.empty()) {
     QStringList names;
-    for (const RobotKey id : ids) {
+    for (const RobotUid id : ids) {
       if (const auto* robot = scene->frame()->robot(id)) names << robotName(*robot);
     }
     menu->addSection(names.join(QStringLiteral(", ")));
@@ -105,7 +106,7 @@ void fillRobotsMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
   if (!canEdit(scene, controller)) return;
   menu->addSeparator();
   addRobotsAt(menu, QStringLiteral("Add robot"), controller, metres);
-  addBall(menu, scene, controller, actions);
+  addBall(menu, controller, actions);
 }
 
 void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
@@ -117,17 +118,16 @@ void fillFieldMenu(QMenu* menu, FieldScene* scene, MatchController* controller,
     if (std::find(selected.begin(), selected.end(), hit.robot) == selected.end()) {
       scene->select({hit.robot});
     }
-    std::vector<RobotKey> ids = scene->selection();
+    std::vector<RobotUid> ids = scene->selection();
     // What concerns one concerns the one that was clicked.
     std::iter_swap(ids.begin(), std::find(ids.begin(), ids.end(), hit.robot));
     addRobots(menu, scene, controller, ids, actions);
   } else if (editable && hit.kind == FieldHit::Kind::Ball) {
-    addBall(menu, scene, controller, actions);
+    addBall(menu, controller, actions);
   } else if (editable) {
     addRobotsAt(menu, QStringLiteral("Add robot here"), controller, metres);
-    menu->addAction(QStringLiteral("Place ball here"), controller, [controller, scene, metres] {
-      controller->edits()->moveBall(scene->ball(), fromScene(metres));
-    });
+    menu->addAction(QStringLiteral("Place ball here"), controller,
+                    [controller, metres] { controller->edits()->moveBall(fromScene(metres)); });
   }
   if (editable) {
     const bool ground = hit.kind == FieldHit::Kind::Nothing || hit.kind == FieldHit::Kind::Ball;

@@ -17,8 +17,8 @@ class MatchController;
 
 /// What the menu cannot do through the controller or the scene.
 struct FieldMenuActions {
-  std::function<void(RobotKey)> editPose;
-  std::function<void(RobotKey)> showBlackboard;
+  std::function<void(RobotUid)> editPose;
+  std::function<void(RobotUid)> showBlackboard;
   std::function<void()> editBall;
   std::function<void()> saveMoment;
 };

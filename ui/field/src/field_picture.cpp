@@ -18,7 +18,7 @@ namespace {
 
 QString captionOf(const link::MatchFrame& frame) {
   link::MatchFrame playing = frame;
-  playing.paused = false;  // whoever looks at a file does not care
+  playing.paused = false;  // a picture in a file does not say that the match is paused
   const ScoreboardState board = scoreboardOf(playing);
   if (board.leftName.isEmpty()) return clockText(frame.snapshot.time);
   QStringList parts{QStringLiteral("%1  %2 : %3  %4")
@@ -26,7 +26,7 @@ QString captionOf(const link::MatchFrame& frame) {
                         .arg(board.left)
                         .arg(board.right)
                         .arg(board.rightName),
-                    board.clock, board.state, board.penalties};
+                    board.clock, board.period, board.state, board.penalties};
   parts.removeAll(QString());
   return parts.join(QStringLiteral("    "));
 }

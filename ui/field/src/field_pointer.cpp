@@ -47,11 +47,11 @@ Qt::CursorShape FieldPointer::shape(const QPointF& at) const {
   return Qt::ArrowCursor;
 }
 
-std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotKey>& ids) const {
+std::vector<RobotPlacement> FieldPointer::standing(const std::vector<RobotUid>& ids) const {
   std::vector<RobotPlacement> placements;
-  for (const RobotKey& key : ids) {
-    auto pose = m_scene->pose(key);
-    const link::RobotFrame* robot = pose ? m_scene->frame()->robot(key) : nullptr;
+  for (const RobotUid uid : ids) {
+    auto pose = m_scene->pose(uid);
+    const link::RobotFrame* robot = pose ? m_scene->frame()->robot(uid) : nullptr;
     if (robot == nullptr) continue;
     // Keys and wheel come faster than frames: none of their steps may be lost.
     if (m_scene->frame() && m_scene->frame()->serial == m_pendingSince) {
@@ -121,10 +121,9 @@ void FieldPointer::press(const QPointF& at, Qt::KeyboardModifiers modifiers) {
       }
       break;
   }
-  if (!canEdit() && m_drag != Drag::Band) m_drag = Drag::None;
 }
 
-void FieldPointer::beginRobots(RobotKey hit) {
+void FieldPointer::beginRobots(RobotUid hit) {
   const auto& selected = m_scene->selection();
   const bool among = std::find(selected.begin(), selected.end(), hit) != selected.end();
   m_clickedOneOfSeveral = among && selected.size() > 1;
@@ -134,7 +133,7 @@ void FieldPointer::beginRobots(RobotKey hit) {
   m_placements = standing(m_scene->selection());
 }
 
-void FieldPointer::beginTurn(RobotKey hit) {
+void FieldPointer::beginTurn(RobotUid hit) {
   m_drag = Drag::Turn;
   m_pivot = hit;
   m_placements = standing(m_scene->selection());
@@ -147,6 +146,11 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
   if (!m_moved) {
     m_moved = std::hypot(offset.x(), offset.y()) >= m_scene->style().metres(dragThreshold_px);
     if (!m_moved) return;
+    if (!canEdit() && m_drag != Drag::Band && m_drag != Drag::Ruler) {
+      m_drag = Drag::None;
+      if (m_controller) m_controller->edits()->allowsChange();  // says why not
+      return;
+    }
   }
   switch (m_drag) {
     case Drag::Robots:
@@ -158,8 +162,8 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
     case Drag::Band: {
       m_scene->rubberBand()->setVisible(true);
       m_scene->rubberBand()->setBand(QRectF(m_from, at));
-      std::vector<RobotKey> ids = m_selectedBefore;
-      for (const RobotKey id : m_scene->robotsIn(QRectF(m_from, at).normalized())) {
+      std::vector<RobotUid> ids = m_selectedBefore;
+      for (const RobotUid id : m_scene->robotsIn(QRectF(m_from, at).normalized())) {
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
       }
       m_scene->select(ids);
@@ -178,7 +182,7 @@ void FieldPointer::move(const QPointF& at, Qt::KeyboardModifiers) {
     case Drag::None:
       break;
   }
-  preview();
+  showHeld();
 }
 
 void FieldPointer::dragRobots() {
@@ -198,7 +202,7 @@ QPointF FieldPointer::together(const std::vector<RobotPlacement>& placements,
   QPointF free = offset;
   for (const RobotPlacement& placement : placements) {
     const link::RobotFrame* robot = m_scene->frame()->robot(placement.id);
-    const double radius = robot != nullptr ? m_scene->radius(robot->key) : 0.0;
+    const double radius = robot != nullptr ? m_scene->radius(robot->uid) : 0.0;
     const Point& at = placement.from.position;
     free = {held(free.x(), at.x, field.halfLength() + field.border - radius),
             held(free.y(), at.y, field.halfWidth() + field.border - radius)};
@@ -229,21 +233,17 @@ void FieldPointer::dragTurn() {
   }
 }
 
-void FieldPointer::preview() {
+void FieldPointer::showHeld() {
   if (!canEdit()) return;
-  if (m_drag == Drag::Robots || m_drag == Drag::Turn)
-    m_controller->edits()->previewRobots(m_placements);
-  if (m_drag == Drag::Ball) m_controller->edits()->previewBall(fromScene(m_at));
-}
-
-void FieldPointer::hold() {
-  if (m_drag != Drag::None && m_moved) preview();
+  if (m_drag == Drag::Robots || m_drag == Drag::Turn) m_scene->showHeld(m_placements);
+  if (m_drag == Drag::Ball) m_scene->showHeld({}, fromScene(m_at));
 }
 
 void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
   if (m_drag == Drag::None) return;
   move(at, modifiers);
   if (m_moved && canEdit()) finish();
+  m_scene->showHeld({});
   if (m_drag == Drag::Kick) m_scene->ruler()->setVisible(false);
   if (!m_moved && m_drag == Drag::Robots && m_clickedOneOfSeveral) m_scene->select({m_pivot});
   m_scene->rubberBand()->setVisible(false);
@@ -253,10 +253,10 @@ void FieldPointer::release(const QPointF& at, Qt::KeyboardModifiers modifiers) {
 void FieldPointer::finish() {
   if (m_drag == Drag::Robots || m_drag == Drag::Turn)
     m_controller->edits()->moveRobots(m_placements);
-  if (m_drag == Drag::Ball) m_controller->edits()->moveBall(m_ballFrom, fromScene(m_at));
+  if (m_drag == Drag::Ball) m_controller->edits()->moveBall(fromScene(m_at));
   if (m_drag == Drag::Kick) {
     // It may have rolled on while the arrow was drawn; it is kicked where it is.
-    m_controller->edits()->moveBall(m_ballFrom, m_scene->ball(), kick());
+    m_controller->edits()->moveBall(m_scene->ball(), kick());
   }
 }
 
@@ -273,7 +273,7 @@ bool FieldPointer::turnAt(const QPointF& at, double notches) {
   const FieldHit hit = m_scene->hit(at);
   if (hit.kind != FieldHit::Kind::Robot || !canEdit()) return false;
   const auto& selected = m_scene->selection();
-  // Who zooms over a crowd does not want to turn it.
+  // The wheel turns only selected robots, so that zooming over others does not turn them.
   if (std::find(selected.begin(), selected.end(), hit.robot) == selected.end()) return false;
   auto placements = standing(selected);
   for (RobotPlacement& placement : placements) {
@@ -285,11 +285,7 @@ bool FieldPointer::turnAt(const QPointF& at, double notches) {
 
 bool FieldPointer::cancel() {
   if (m_drag == Drag::None) return false;
-  if (m_moved && canEdit()) {
-    for (RobotPlacement& placement : m_placements) placement.to = placement.from;
-    if (m_drag == Drag::Ball) m_at = toScene(m_ballFrom);
-    preview();
-  }
+  m_scene->showHeld({});
   if (m_drag == Drag::Band) m_scene->select(m_selectedBefore);
   m_scene->rubberBand()->setVisible(false);
   m_scene->ruler()->setVisible(false);

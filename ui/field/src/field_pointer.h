@@ -2,8 +2,8 @@
 #pragma once
 
 // What the left mouse button does on the field: drag robots and ball, turn robots, select, measure,
-// add. Positions in metres of the scene. While something is held it stays at the cursor, whatever
-// the match does meanwhile; the whole drag is one undoable command.
+// add. Positions in metres of the scene. While something is held, only the scene shows it at the
+// cursor; the match is told when it is released, by one edit.
 
 #include <QObject>
 #include <QPointF>
@@ -35,33 +35,31 @@ class FieldPointer : public QObject {
   void doubleClick(const QPointF& at);
   /// The wheel over one of the selected robots turns them; false when there is none.
   bool turnAt(const QPointF& at, double notches);
-  /// Puts back what is being dragged; says whether anything was.
+  /// Gives up what is being dragged; says whether anything was.
   bool cancel();
   /// Moves the selected robots by so much.
   void nudge(const QPointF& metres);
-  /// Call when a new frame has arrived: what is held is put back under the cursor.
-  void hold();
 
  signals:
   void toolChanged(pitchboard::ui::FieldTool tool);
-  void poseRequested(pitchboard::RobotKey id);
+  void poseRequested(pitchboard::RobotUid id);
   void ballRequested();
 
  private:
   enum class Drag { None, Robots, Turn, Ball, Kick, Band, Ruler };
-  void beginRobots(RobotKey hit);
-  void beginTurn(RobotKey hit);
+  void beginRobots(RobotUid hit);
+  void beginTurn(RobotUid hit);
   void dragRobots();
   void dragTurn();
   /// How far these robots can go towards `way` together: the first that reaches a wall holds all.
   QPointF together(const std::vector<RobotPlacement>& placements, const QPointF& offset) const;
   /// Of the ball that is kicked along the arrow that is being drawn.
   Velocity kick() const;
-  void preview();
+  void showHeld();
   void finish();
   /// Moves that the next frame will show; further ones before it start from there.
   void nudgeTo(const std::vector<RobotPlacement>& placements);
-  std::vector<RobotPlacement> standing(const std::vector<RobotKey>& ids) const;
+  std::vector<RobotPlacement> standing(const std::vector<RobotUid>& ids) const;
   bool canEdit() const;
 
   FieldScene* m_scene;
@@ -72,9 +70,9 @@ class FieldPointer : public QObject {
   bool m_moved = false;  // beyond the distance of an unsteady click
   QPointF m_from, m_at;
   std::vector<RobotPlacement> m_placements;
-  RobotKey m_pivot;  // the robot whose handle is held
-  Point m_ballFrom;
-  std::vector<RobotKey> m_selectedBefore;
+  RobotUid m_pivot;  // the robot whose handle is held
+  Point m_ballFrom;  // where the ball was taken hold of
+  std::vector<RobotUid> m_selectedBefore;
   std::vector<RobotPlacement> m_pending;
   std::uint64_t m_pendingSince = 0;  // serial of the frame they were made on
   bool m_clickedOneOfSeveral = false;

@@ -1,30 +1,128 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_scene.h"
+#include "heat_item.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include <robotlink/frame/robot_frame.h>
+#include <simcore/world/field.h>
+#include <simcore/world/published_frame.h>
+#include <telemetry/series/series_store.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/pose_difference.h>
 
-#include "advice_items.h"
-#include "ball_item.h"
 #include "belief_item.h"
 #include "compared_item.h"
 #include "debug_overlay_items.h"
 #include "drawing_items.h"
+#include "field_item.h"
+#include "field_stamps.h"
 #include "live_items.h"
 #include "name_labels.h"
 #include "overlay_items.h"
 #include "robot_item.h"
 #include "sector_items.h"
 #include "trail_item.h"
-#include "trail_rows.h"
 #include "view_wedge_item.h"
 
 namespace pitchboard::ui {
+namespace {
+
+constexpr double perSecond = 10.0;
+constexpr double rounding = 1e-6;  // s; files keep whole nanoseconds
+
+/// Returns where a robot truly was, or believed to be where nobody knows the truth, ten times a
+/// second, up to `time` (s). Empty while the rows are being read, and for robots of Live whose
+/// profile gives their position a name of its own.
+std::vector<TrailItem::Place> trailOf(const telemetry::SeriesStore& rows,
+                                      const link::RobotFrame& robot, const sim::FieldSpec& field,
+                                      double time) {
+  auto x = rows.find(robot.name, "TRUE_X"), y = rows.find(robot.name, "TRUE_Y");
+  const bool believed = !x || !y;
+  if (believed) {
+    x = rows.find(robot.name, "LOCALIZATION_X");
+    y = rows.find(robot.name, "LOCALIZATION_Y");
+  }
+  if (!x || !y || x->group != y->group) return {};
+  const auto view = rows.view(x->group);
+  const auto known = view ? view->range() : std::nullopt;
+  if (!known) return {};
+  // Steps are counted from second 0: a trail that grows keeps its places.
+  const double from = std::floor((time - TrailItem::seconds) * perSecond) / perSecond;
+  const telemetry::TimeRange range{std::max(from, known->begin),
+                                   std::min(time + rounding, known->end)};
+  if (range.end < range.begin || !view->hasEveryRow(range)) return {};
+  std::vector<telemetry::Sample> xs, ys;
+  view->samples(x->column, range, xs);
+  view->samples(y->column, range, ys);
+  std::vector<TrailItem::Place> places;
+  double last = -1.0;
+  for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i) {
+    const double step = std::floor((xs[i].time + rounding) * perSecond);
+    if (std::exchange(last, step) != step) {
+      const Point at{xs[i].value, ys[i].value};
+      if (!std::isfinite(at.x) || !std::isfinite(at.y)) continue;
+      const Pose pose = believed
+                            ? sim::published_frame::studioFromLocalization(field, {at.x, at.y, 0.0})
+                            : Pose{at, 0.0};
+      places.push_back({pose.position, xs[i].time});
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+/// The ball where it really is.
+class BallItem : public FieldItem {
+ public:
+  using FieldItem::FieldItem;
+
+  void setBall(const Point& position) { setPos(toScene(position)); }
+  void setSelected(bool selected);
+
+  QRectF boundingRect() const override;
+  void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
+
+ private:
+  bool m_selected = false;
+};
+
+void BallItem::setSelected(bool selected) {
+  if (selected == m_selected) return;
+  prepareGeometryChange();
+  m_selected = selected;
+  update();
+}
+
+QRectF BallItem::boundingRect() const {
+  const double reach = m_style->ballDrawRadius() + m_style->metres(m_selected ? 8.0 : 2.0);
+  return {-reach, -reach, 2 * reach, 2 * reach};
+}
+
+void BallItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
+  const ScreenPainting screen(painter, QPointF(0, 0));
+  const double radius = std::max(m_style->field.ballRadius * screen.pixelsPerMetre(), 3.0);
+  if (m_selected && m_style->ornaments) {
+    painter->setPen(QPen(theme().accentLine, 2.0));
+    painter->setBrush(Qt::NoBrush);
+    painter->drawEllipse(QPointF(0, 0), radius + 5, radius + 5);
+  }
+  const QColor outline = isDarkTheme() ? QColor(16, 20, 24) : QColor(90, 45, 10);
+  const QColor ball = theme().ball;
+  drawStamp(painter, {}, {Stamp::Kind::Ball, stampSize(radius), ball.rgba(), outline.rgba(), {}},
+            {radius + 2, radius + 2}, [&](QPainter& p) {
+              p.setPen(QPen(outline, std::clamp(radius * 0.12, 1.0, 2.0)));
+              p.setBrush(ball);
+              p.drawEllipse(QPointF(0, 0), radius, radius);
+            });
+}
+
 namespace {
 
 // From the ground up.
@@ -39,47 +137,12 @@ enum Height {
   ballHeight,
   robotHeight,
   drawingHeight,
-  adviceHeight,
   nameHeight,
   toolHeight
 };
 
 constexpr double hitMargin_px = 3.0;
-
-QString signedValue(double value) {
-  return (value < 0.0 ? QString() : QStringLiteral("+")) + fieldNumber(value, 2);
-}
-
-/// The chosen one last and opaque. Kicks start at the ball where the robot sees it.
-std::vector<DrawnAction> drawnCandidates(const link::RobotFrame& robot,
-                                         const link::MatchFrame& frame) {
-  std::vector<DrawnAction> drawn;
-  const QPointF body = toScene(robot.pose.position);
-  const QPointF ball = robot.ball        ? toScene(robot.ball->place)
-                       : frame.ballKnown ? toScene(frame.snapshot.ball)
-                                         : body;
-  for (const link::AdviceCandidate& one : robot.advice->candidates) {
-    // What the behaviour would do has no place of its own, and neither has leaving the ball.
-    const bool hasPlace =
-        one.kind != link::AdviceKind::None && one.kind != link::AdviceKind::LeaveBall;
-    if (!hasPlace && !one.isChosen) continue;
-    DrawnAction& action = drawn.emplace_back();
-    action.from = link::isForBall(one.kind) ? ball : body;
-    if (hasPlace) action.to = toScene(one.place);
-    action.text = signedValue(one.value);
-    if (one.isChosen) {
-      action.text = QString::fromUtf8(link::adviceText(one.kind).data(),
-                                      qsizetype(link::adviceText(one.kind).size())) +
-                    QStringLiteral("  ") + action.text;
-    }
-    action.color = theme().team(robot.identity.team);
-    action.width = one.isChosen ? 4.0 : 2.0;
-    action.opacity = one.isChosen ? 1.0 : 0.45;
-  }
-  std::stable_partition(drawn.begin(), drawn.end(),
-                        [](const DrawnAction& one) { return one.opacity < 1.0; });
-  return drawn;
-}
+constexpr double heldOpacity = 0.6;
 
 /// Stands out from the grass of both themes, and is no team's.
 QColor explorationColor() {
@@ -89,20 +152,18 @@ QColor explorationColor() {
 }  // namespace
 
 struct FieldScene::Robot {
-  Robot(FieldScene* scene, RobotKey id)
+  Robot(FieldScene* scene, RobotUid id)
       : body(&scene->m_style, id),
         belief(&scene->m_style),
         trail(&scene->m_style),
         wedge(&scene->m_style),
         other(&scene->m_style),
         particles(&scene->m_style),
-        path(&scene->m_style),
-        heat(&scene->m_style),
-        candidates(&scene->m_style) {
+        path(&scene->m_style) {
     const std::pair<QGraphicsItem*, Height> items[] = {
         {&body, robotHeight},  {&belief, beliefHeight}, {&trail, trailHeight},
         {&wedge, wedgeHeight}, {&other, beliefHeight},  {&particles, particleHeight},
-        {&path, pathHeight},   {&heat, heatHeight},     {&candidates, adviceHeight}};
+        {&path, pathHeight}};
     for (const auto& [item, height] : items) {
       item->setZValue(height);
       scene->addItem(item);
@@ -116,18 +177,16 @@ struct FieldScene::Robot {
   OtherPoseItem other;
   ParticlesItem particles;
   PlannedPathItem path;
-  HeatItem heat;
-  ActionArrowsItem candidates;
 };
 
 FieldScene::FieldScene(QObject* parent)
     : QGraphicsScene(parent),
       m_ball(new BallItem(&m_style)),
+      m_heldBall(new BallItem(&m_style)),
       m_teamBalls(new TeamBallsItem(&m_style)),
       m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
       m_compared(new ComparedItem(&m_style)),
       m_heat(new HeatItem(&m_style)),
-      m_actions(new ActionArrowsItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
       m_names(new NameLabelsItem(&m_style)),
@@ -136,15 +195,16 @@ FieldScene::FieldScene(QObject* parent)
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
-      {m_ball, ballHeight},       {m_teamBalls, ballHeight}, {m_compared, beliefHeight},
-      {m_heat, heatHeight},       {m_actions, adviceHeight}, {m_eopra, sectorHeight},
-      {m_starVars, sectorHeight}, {m_names, nameHeight},     {m_ruler, toolHeight},
+      {m_ball, ballHeight},       {m_heldBall, toolHeight}, {m_teamBalls, ballHeight},
+      {m_compared, beliefHeight}, {m_heat, heatHeight},     {m_eopra, sectorHeight},
+      {m_starVars, sectorHeight}, {m_names, nameHeight},    {m_ruler, toolHeight},
       {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
     addItem(item);
   }
+  m_heldBall->setOpacity(heldOpacity);
 }
 
 FieldScene::~FieldScene() = default;
@@ -154,7 +214,7 @@ void FieldScene::styleChanged() {
     if (auto* shown = dynamic_cast<FieldItem*>(item)) shown->styleChanges();
   }
   if (m_frame) showFrame(m_frame);
-  showForecastItems();
+  showHeat(m_heat->heat());
   update();
 }
 
@@ -172,6 +232,7 @@ void FieldScene::showFrame(const FramePtr& frame) {
   setField(frame->settings->field);
   matchRobots();
   m_ball->setBall(frame->snapshot.ball);
+  showWedges();
   for (const link::RobotFrame& robot : frame->robots) showRobot(robot);
   showNames();
   showDebugOverlay();
@@ -182,6 +243,22 @@ void FieldScene::setField(const sim::FieldSpec& field) {
   if (m_style.field == field) return;
   m_style.field = field;
   update();
+}
+
+// Of the selected robots, or of all. Together they are as bright as one: five would be a white
+// spot.
+void FieldScene::showWedges() {
+  int shown = 0;
+  for (auto& [id, robot] : m_robots) {
+    const link::RobotFrame* now = m_frame ? m_frame->robot(id) : nullptr;
+    const bool selected =
+        std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
+    // Where a robot that is received looks, it does not say.
+    robot->wedge.setVisible(now && !now->link && m_style.shows(FieldLayer::FieldOfView) &&
+                            (selected || m_style.wedgeForAll));
+    shown += robot->wedge.isVisible();
+  }
+  for (auto& [id, robot] : m_robots) robot->wedge.setShare(1.0 / std::max(1, shown));
 }
 
 void FieldScene::showNames() {
@@ -218,20 +295,13 @@ void FieldScene::showDebugOverlay() {
     robot->path.setVisible(any && m_style.shows(FieldLayer::PlannedPath));
     if (robot->particles.isVisible()) robot->particles.setCloud(now->cognitionDebug->cloud, team);
     if (robot->path.isVisible()) robot->path.setPath(now->cognitionDebug->path, team);
-    const bool advised = chosen && now != nullptr && now->advice && now->advice->isThinking;
-    const bool heat = advised && now->advice->heat && m_style.shows(FieldLayer::AdvisorHeat);
-    const bool candidates = advised && m_style.shows(FieldLayer::AdvisorCandidates);
-    robot->heat.setVisible(heat);
-    robot->candidates.setVisible(candidates);
-    if (heat) robot->heat.setHeat(now->advice->heat, theme().team(team));
-    if (candidates) robot->candidates.setActions(drawnCandidates(*now, *m_frame));
   }
 }
 
 void FieldScene::matchRobots() {
-  std::set<RobotKey> present;
+  std::set<RobotUid> present;
   for (const link::RobotFrame& robot : m_frame->robots) {
-    const RobotKey id = robot.key;
+    const RobotUid id = robot.uid;
     present.insert(id);
     if (!m_robots.contains(id)) m_robots.emplace(id, std::make_unique<Robot>(this, id));
   }
@@ -244,19 +314,8 @@ void FieldScene::matchRobots() {
   }
 }
 
-void FieldScene::rename(const std::vector<Renaming>& renamings) {
-  pitchboard::rename(m_robots, renamings);
-  for (const auto& [key, robot] : m_robots) robot->body.setKey(key);
-  pitchboard::rename(m_hiddenTrails, renamings);
-  for (RobotKey& key : m_selection) key = pitchboard::renamed(key, renamings);
-  emit selectionChangedTo(m_selection);
-  if (!m_followed) return;
-  m_followed = pitchboard::renamed(*m_followed, renamings);
-  emit followedChanged(m_followed);
-}
-
 void FieldScene::showRobot(const link::RobotFrame& now) {
-  const RobotKey id = now.key;
+  const RobotUid id = now.uid;
   Robot& robot = *m_robots.at(id);
   RobotLook look;
   look.pose = now.pose;
@@ -272,15 +331,13 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
     look.tag = QStringLiteral("timeout %1").arg(durationText(telemetry::secondsOf(now.link->age)));
     look.opacity = 0.45;
   } else if (now.penalty) {
-    look.tag = QStringLiteral("penalised");
+    look.tag =
+        now.penalty->isSubstitute() ? QStringLiteral("substitute") : QStringLiteral("penalised");
   }
   robot.body.setLook(look);
   robot.body.setVisible(now.poseKnown());
 
   showTrail(robot, now);
-  // Where a robot that is received looks, it does not say.
-  robot.wedge.setVisible(!now.link && m_style.shows(FieldLayer::FieldOfView) &&
-                         (look.selected || m_style.wedgeForAll));
   robot.wedge.setCamera(now.fieldOfView, now.visionRange);
   robot.wedge.setHead(now.pose.position, now.headYaw);
   robot.belief.setVisible(now.boardKey || now.belief);
@@ -290,12 +347,12 @@ void FieldScene::showRobot(const link::RobotFrame& now) {
 
 // Rows know the trail of any moment. What frames have shown is the trail only while they go on.
 void FieldScene::showTrail(Robot& robot, const link::RobotFrame& now) {
-  const bool shown = now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(now.key);
+  const bool shown = now.poseKnown() && m_style.shows(FieldLayer::Trails) && isTrailShown(now.uid);
   robot.trail.setVisible(shown);
   const double time = m_frame->snapshot.time, passed = time - robot.trail.now();
-  constexpr double longestGap = 1.0;  // s; less than a step of the fastest replay
+  constexpr double maxGap = 1.0;  // s; less than a step of the fastest replay
   const bool recorded = m_frame->origin == link::FrameOrigin::Recorded;
-  const bool goesOn = passed >= 0.0 && passed <= longestGap;
+  const bool goesOn = passed >= 0.0 && passed <= maxGap;
   if (recorded || !goesOn) {
     const auto rows = shown && m_rows ? m_rows() : nullptr;
     const auto places = rows ? trailOf(*rows, now, m_frame->settings->field, time)
@@ -318,27 +375,27 @@ void FieldScene::showCompared(const FramePtr& frame) {
   m_compared->setFrame(frame);
 }
 
-void FieldScene::showForecast(const ForecastPtr& forecast) {
-  m_forecast = forecast;
-  showForecastItems();
+void FieldScene::showHeld(const std::vector<RobotPlacement>& robots, std::optional<Point> ball) {
+  m_held.clear();
+  for (const RobotPlacement& placement : robots) {
+    const link::RobotFrame* robot = m_frame ? m_frame->robot(placement.id) : nullptr;
+    if (robot == nullptr) continue;
+    RobotLook look = m_robots.at(robot->uid)->body.look();
+    look.pose = placement.to;
+    look.opacity = heldOpacity;
+    look.followed = false;
+    auto& held = m_held.emplace_back(std::make_unique<RobotItem>(&m_style, robot->uid));
+    held->setZValue(toolHeight);
+    held->setLook(look);
+    addItem(held.get());
+  }
+  m_heldBall->setVisible(ball.has_value());
+  if (ball) m_heldBall->setBall(*ball);
 }
 
-void FieldScene::showForecastItems() {
-  const bool shown = m_forecast && m_style.shows(FieldLayer::Exploration);
-  m_heat->setVisible(shown && m_forecast->heat);
-  m_heat->setHeat(m_forecast ? m_forecast->heat : nullptr, explorationColor());
-  std::vector<DrawnAction> actions;
-  if (shown && m_forecast->best) {
-    const ForecastAction& best = *m_forecast->best;
-    DrawnAction& drawn = actions.emplace_back();
-    drawn.from = toScene(best.from);
-    if (best.to) drawn.to = toScene(*best.to);
-    drawn.text = best.text;
-    drawn.color = theme().accentLine;
-    drawn.dashed = !best.isClear;
-  }
-  m_actions->setVisible(!actions.empty());
-  m_actions->setActions(std::move(actions));
+void FieldScene::showHeat(const BallHeatPtr& heat) {
+  m_heat->setHeat(heat, explorationColor());
+  m_heat->setVisible(heat && m_style.shows(FieldLayer::Exploration));
 }
 
 void FieldScene::showOtherPose(Robot& robot, const link::RobotFrame& now) {
@@ -359,22 +416,22 @@ void FieldScene::showSelected() {
   m_starVars->setPose(chosen->second->body.look().pose);
 }
 
-void FieldScene::select(const std::vector<RobotKey>& ids) {
-  std::vector<RobotKey> present;
-  for (const RobotKey id : ids) {
+void FieldScene::select(const std::vector<RobotUid>& ids) {
+  std::vector<RobotUid> present;
+  for (const RobotUid id : ids) {
     if (m_robots.contains(id)) present.push_back(id);
   }
   setSelection(std::move(present));
 }
 
 void FieldScene::selectAll() {
-  std::vector<RobotKey> all;
+  std::vector<RobotUid> all;
   for (const auto& [id, robot] : m_robots) all.push_back(id);
   setSelection(std::move(all));
 }
 
-void FieldScene::toggle(RobotKey id) {
-  std::vector<RobotKey> ids = m_selection;
+void FieldScene::toggle(RobotUid id) {
+  std::vector<RobotUid> ids = m_selection;
   if (const auto found = std::find(ids.begin(), ids.end(), id); found != ids.end()) {
     ids.erase(found);
   } else {
@@ -383,17 +440,16 @@ void FieldScene::toggle(RobotKey id) {
   select(ids);
 }
 
-void FieldScene::setSelection(std::vector<RobotKey> ids) {
+void FieldScene::setSelection(std::vector<RobotUid> ids) {
   if (ids == m_selection) return;
   m_selection = std::move(ids);
   for (auto& [id, robot] : m_robots) {
     RobotLook look = robot->body.look();
     look.selected = std::find(m_selection.begin(), m_selection.end(), id) != m_selection.end();
     robot->body.setLook(look);
-    robot->wedge.setVisible(m_style.shows(FieldLayer::FieldOfView) && m_frame &&
-                            m_frame->truthKnown && (look.selected || m_style.wedgeForAll));
-    robot->wedge.styleChanges();
   }
+  showWedges();
+  for (auto& [id, robot] : m_robots) robot->wedge.styleChanges();
   showDebugOverlay();
   if (m_style.drawings.onlySelected) m_drawings->show(m_frame.get(), m_selection);
   showSelected();
@@ -403,7 +459,7 @@ void FieldScene::setSelection(std::vector<RobotKey> ids) {
 FieldHit FieldScene::hit(const QPointF& metres) const {
   const double margin = m_style.metres(hitMargin_px);
   if (!m_style.readOnly) {
-    for (const RobotKey id : m_selection) {
+    for (const RobotUid id : m_selection) {
       const RobotLook& look = m_robots.at(id)->body.look();
       const QPointF handle = RobotItem::handlePosition(m_style, look.pose, look.radius);
       if (distance(handle, metres) <= RobotItem::handleRadius(m_style) + margin) {
@@ -431,8 +487,8 @@ FieldHit FieldScene::hit(const QPointF& metres) const {
   return nearest;
 }
 
-std::vector<RobotKey> FieldScene::robotsIn(const QRectF& metres) const {
-  std::vector<RobotKey> inside;
+std::vector<RobotUid> FieldScene::robotsIn(const QRectF& metres) const {
+  std::vector<RobotUid> inside;
   for (const auto& [id, robot] : m_robots) {
     const RobotItem& body = robot->body;
     if (body.isVisible() && metres.contains(toScene(body.look().pose.position))) {
@@ -442,13 +498,13 @@ std::vector<RobotKey> FieldScene::robotsIn(const QRectF& metres) const {
   return inside;
 }
 
-std::optional<Pose> FieldScene::pose(RobotKey id) const {
+std::optional<Pose> FieldScene::pose(RobotUid id) const {
   const auto found = m_robots.find(id);
   if (found == m_robots.end()) return {};
   return found->second->body.look().pose;
 }
 
-double FieldScene::radius(RobotKey id) const {
+double FieldScene::radius(RobotUid id) const {
   const auto found = m_robots.find(id);
   const double own = found == m_robots.end() ? 0.0 : found->second->body.look().radius;
   return own > 0.0 ? own : m_style.field.robotRadius;
@@ -458,7 +514,7 @@ Point FieldScene::ball() const {
   return m_frame ? m_frame->snapshot.ball : Point{};
 }
 
-void FieldScene::setTrailShown(RobotKey id, bool shown) {
+void FieldScene::setTrailShown(RobotUid id, bool shown) {
   if (shown) {
     m_hiddenTrails.erase(id);
   } else {
@@ -467,7 +523,7 @@ void FieldScene::setTrailShown(RobotKey id, bool shown) {
   if (m_frame) showFrame(m_frame);
 }
 
-void FieldScene::setFollowed(std::optional<RobotKey> id) {
+void FieldScene::setFollowed(std::optional<RobotUid> id) {
   const bool there = !id || m_robots.contains(*id);
   if (!there) id.reset();
   if (id == m_followed && there) return;

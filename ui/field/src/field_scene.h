@@ -12,8 +12,9 @@
 #include <set>
 #include <vector>
 
-#include <ui/sources/forecast.h>
+#include <ui/sources/ball_heat.h>
 #include <ui/sources/frame_source.h>
+#include <ui/sources/match_edits.h>
 
 #include "field_style.h"
 
@@ -39,7 +40,7 @@ class ViewWedgeItem;
 struct FieldHit {
   enum class Kind { Nothing, Robot, Handle, Ball };
   Kind kind = Kind::Nothing;
-  RobotKey robot;
+  RobotUid robot;
 };
 
 class FieldScene : public QGraphicsScene {
@@ -71,67 +72,69 @@ class FieldScene : public QGraphicsScene {
   void showOther(const FramePtr& frame);
   /// A moment of another session, drawn over this one; null: none.
   void showCompared(const FramePtr& frame);
+  /// Draws robots and ball where the user holds them, faint, beside what the match makes of them;
+  /// neither: nothing is held.
+  void showHeld(const std::vector<RobotPlacement>& robots, std::optional<Point> ball = {});
   /// What may follow a moment; null: nothing.
-  void showForecast(const ForecastPtr& forecast);
+  void showHeat(const BallHeatPtr& heat);
 
-  const std::vector<RobotKey>& selection() const { return m_selection; }
-  /// Those of the selection in a simulated match, for orders.
+  const std::vector<RobotUid>& selection() const { return m_selection; }
+  /// Returns the selected robots of a simulated match, for orders.
   std::vector<RobotId> selectedSlots() const {
     return m_frame ? m_frame->slotsOf(m_selection) : std::vector<RobotId>();
   }
   /// Robots that are not there are left out.
-  void select(const std::vector<RobotKey>& ids);
+  void select(const std::vector<RobotUid>& ids);
   void selectAll();
-  void toggle(RobotKey id);
+  void toggle(RobotUid id);
 
   FieldHit hit(const QPointF& metres) const;
-  std::vector<RobotKey> robotsIn(const QRectF& metres) const;
-  std::optional<Pose> pose(RobotKey id) const;
+  std::vector<RobotUid> robotsIn(const QRectF& metres) const;
+  std::optional<Pose> pose(RobotUid id) const;
   /// Of the body, metres.
-  double radius(RobotKey id) const;
+  double radius(RobotUid id) const;
   Point ball() const;
 
-  void setTrailShown(RobotKey id, bool shown);
-  bool isTrailShown(RobotKey id) const { return !m_hiddenTrails.contains(id); }
-  void setFollowed(std::optional<RobotKey> id);
-  void rename(const std::vector<Renaming>& renamings);
-  std::optional<RobotKey> followed() const { return m_followed; }
+  void setTrailShown(RobotUid id, bool shown);
+  bool isTrailShown(RobotUid id) const { return !m_hiddenTrails.contains(id); }
+  void setFollowed(std::optional<RobotUid> id);
+  std::optional<RobotUid> followed() const { return m_followed; }
 
   RulerItem* ruler() const { return m_ruler; }
   RubberBandItem* rubberBand() const { return m_band; }
 
  signals:
-  void selectionChangedTo(const std::vector<pitchboard::RobotKey>& ids);
-  void followedChanged(std::optional<pitchboard::RobotKey> id);
+  void selectionChangedTo(const std::vector<pitchboard::RobotUid>& ids);
+  void followedChanged(std::optional<pitchboard::RobotUid> id);
 
  private:
   struct Robot;
   void styleChanged();
   void matchRobots();
   void showRobot(const link::RobotFrame& now);
+  void showWedges();
   void showTrail(Robot& robot, const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showNames();
   void showDebugOverlay();
-  void showForecastItems();
   void showSelected();
-  void setSelection(std::vector<RobotKey> ids);
+  void setSelection(std::vector<RobotUid> ids);
 
   FieldStyle m_style;
   Rows m_rows;
   FramePtr m_frame;
   FramePtr m_other;
-  std::map<RobotKey, std::unique_ptr<Robot>> m_robots;
-  std::vector<RobotKey> m_selection;
-  std::set<RobotKey> m_hiddenTrails;
-  std::optional<RobotKey> m_followed;
+  std::map<RobotUid, std::unique_ptr<Robot>> m_robots;
+  std::vector<RobotUid> m_selection;
+  std::set<RobotUid> m_hiddenTrails;
+  std::optional<RobotUid> m_followed;
   BallItem* m_ball;
+  BallItem* m_heldBall;
+  std::vector<std::unique_ptr<RobotItem>> m_held;
   TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
   ComparedItem* m_compared;
   HeatItem* m_heat;
-  ActionArrowsItem* m_actions;
-  ForecastPtr m_forecast;
   SectorItem* m_eopra;
   SectorItem* m_starVars;
   NameLabelsItem* m_names;

@@ -16,7 +16,7 @@ const QString eopraKey = QStringLiteral("field/eopraGranularity");
 const QString publishedKey = QStringLiteral("field/publishedKeys");
 const QString hiddenKey = QStringLiteral("field/hiddenDrawings");
 const QString selectedKey = QStringLiteral("field/drawingsOfSelected");
-constexpr qsizetype mostHidden = 1000;  // whatever a file says
+constexpr qsizetype maxHidden = 1000;  // whatever a file says
 
 QString layerKey(std::size_t layer) {
   return QStringLiteral("field/layer/") + QLatin1String(fieldLayers[layer].key);
@@ -42,7 +42,7 @@ QStringList textsOf(const DrawingChoice& choice) {
 
 DrawingChoice choiceFrom(const QStringList& texts) {
   DrawingChoice choice;
-  for (const QString& text : texts.mid(0, mostHidden)) {
+  for (const QString& text : texts.mid(0, maxHidden)) {
     const qsizetype slash = text.indexOf(QLatin1Char('/'));
     if (slash < 1) continue;
     const std::string layer = text.mid(slash + 1).toStdString();

@@ -10,9 +10,9 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr double largestReach = 128.0;                        // pixels
-constexpr qsizetype mostPixels = qsizetype{4} * 1024 * 1024;  // 16 MB
-constexpr int phases = 4;                                     // of a pixel, each way
+constexpr double largestReach = 128.0;                       // pixels
+constexpr qsizetype maxPixels = qsizetype{4} * 1024 * 1024;  // 16 MB
+constexpr int phases = 4;                                    // of a pixel, each way
 
 /// A wide thin disc is taken to whole pixels: it changes its size all the time, and with as many
 /// phases as a number none would be found again.
@@ -39,7 +39,7 @@ struct Placed {
 };
 
 QCache<Key, Placed>& cache() {
-  static QCache<Key, Placed> stamps(mostPixels);
+  static QCache<Key, Placed> stamps(maxPixels);
   return stamps;
 }
 

@@ -18,7 +18,7 @@ namespace pitchboard::ui {
 struct Stamp {
   enum class Kind { Belief, Ghost, Disc, Ball, PerceivedBall, Ring, Text, BoldText, Plate };
   Kind kind = Kind::Disc;
-  int size = 0;  ///< of any unit that the kind likes
+  int size = 0;  ///< in a unit that depends on the kind
   QRgb color = 0;
   QRgb second = 0;  ///< of the outline or halo
   QString text;

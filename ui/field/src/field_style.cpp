@@ -25,7 +25,7 @@ QRectF FieldStyle::playingArea() const {
 }
 
 double FieldStyle::robotDrawRadius() const {
-  return atLeast(field.robotRadius, leastRobot_px());
+  return atLeast(field.robotRadius, minRobot_px());
 }
 
 double FieldStyle::ballDrawRadius() const {

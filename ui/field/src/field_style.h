@@ -70,10 +70,10 @@ struct FieldStyle {
   double robotDrawRadius() const;  ///< metres; never smaller than a dot that can be hit
   /// The same for a robot of its own size; 0 = the field's.
   double drawRadius(double own) const {
-    return own > 0.0 ? atLeast(own, leastRobot_px()) : robotDrawRadius();
+    return own > 0.0 ? atLeast(own, minRobot_px()) : robotDrawRadius();
   }
   /// A number can be read in it and a hand meets it; in a picture for a file it may be smaller.
-  double leastRobot_px() const { return ornaments ? 9.0 : 5.0; }
+  double minRobot_px() const { return ornaments ? 9.0 : 5.0; }
   double ballDrawRadius() const;  ///< metres
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_keys.h>
@@ -41,7 +42,7 @@ struct FieldView::Private {
         canvas(new FieldCanvas(scene, pointer, view)),
         tools(new FieldTools(scene, pointer, canvas, view)) {}
 
-  void openPoseEditor(RobotKey id);
+  void openPoseEditor(RobotUid id);
   void openBallEditor();
   void openEditor(PoseEdit edit);
   void openMenu(QPoint globalPosition, QPointF metres);
@@ -52,7 +53,8 @@ struct FieldView::Private {
     if (controller) controller->edits()->allowsChange();
     return nullptr;
   }
-  void setReadOnly(bool readOnly);
+  /// `whyNot`: why nothing can be changed; empty: it can.
+  void setReadOnly(const QString& whyNot);
   void addAtCursor(TeamColor color);
   void moveSelectedToCursor();
   void carryOut(const FieldOrder& order);
@@ -66,12 +68,13 @@ struct FieldView::Private {
   bool rightShift = false;
 };
 
-void FieldView::Private::setReadOnly(bool readOnly) {
+void FieldView::Private::setReadOnly(const QString& whyNot) {
+  enableUnless(*tools->adding(), whyNot);
+  const bool readOnly = !whyNot.isEmpty();
   if (scene->style().readOnly == readOnly) return;
   pointer->cancel();
   if (readOnly && pointer->tool() == FieldTool::Add) pointer->setTool(FieldTool::Select);
   scene->changeStyle([readOnly](FieldStyle& style) { style.readOnly = readOnly; });
-  tools->adding()->setEnabled(!readOnly);
 }
 
 void FieldView::Private::addAtCursor(TeamColor color) {
@@ -102,7 +105,7 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
     case AddRobotByShift:
       return addAtCursor(rightShift ? TeamColor::Orange : TeamColor::Yellow);
     case PlaceBall:
-      return edits->moveBall(scene->ball(), fromScene(canvas->cursor()));
+      return edits->moveBall(fromScene(canvas->cursor()));
     case MoveHere:
       return moveSelectedToCursor();
     case Act:
@@ -123,14 +126,15 @@ void FieldView::Private::carryOut(const FieldOrder& order) {
   }
 }
 
-void FieldView::Private::openPoseEditor(RobotKey id) {
+void FieldView::Private::openPoseEditor(RobotUid id) {
   const auto pose = scene->pose(id);
   if (!pose || !editor()) return;
   const link::RobotFrame* robot = scene->frame()->robot(id);
   if (robot == nullptr) return;
   openEditor({QStringLiteral("Pose of %1").arg(robotName(*robot)), *pose, false, 0.0,
-              [this, slot = robot->slot(), from = *pose](const Pose& to) {
-                controller->edits()->previewRobots({{slot, from, to}});
+              [this, slot = robot->slot(), from = *pose](const std::optional<Pose>& to) {
+                scene->showHeld(to ? std::vector{RobotPlacement{slot, from, *to}}
+                                   : std::vector<RobotPlacement>());
               },
               [this, slot = robot->slot(), from = *pose](const Pose& to, double) {
                 controller->edits()->moveRobots({{slot, from, to}});
@@ -145,9 +149,11 @@ void FieldView::Private::openBallEditor() {
               {ball, std::atan2(v.y, v.x)},
               true,
               std::hypot(v.x, v.y),
-              [this](const Pose& to) { controller->edits()->previewBall(to.position); },
-              [this, ball](const Pose& to, double speed) {
-                controller->edits()->moveBall(ball, to.position,
+              [this](const std::optional<Pose>& to) {
+                scene->showHeld({}, to ? std::optional(to->position) : std::nullopt);
+              },
+              [this](const Pose& to, double speed) {
+                controller->edits()->moveBall(to.position,
                                               {speed * std::cos(to.yaw), speed * std::sin(to.yaw)});
               }});
 }
@@ -161,8 +167,8 @@ void FieldView::Private::openEditor(PoseEdit edit) {
 }
 
 FieldMenuActions FieldView::Private::menuActions() {
-  return {[this](RobotKey id) { openPoseEditor(id); },
-          [this](RobotKey id) { emit q->blackboardRequested(id); }, [this] { openBallEditor(); },
+  return {[this](RobotUid id) { openPoseEditor(id); },
+          [this](RobotUid id) { emit q->blackboardRequested(id); }, [this] { openBallEditor(); },
           [this] { emit q->saveScenarioRequested(); }};
 }
 
@@ -201,33 +207,36 @@ FieldView::FieldView(FrameSource* source, MatchController* controller, QWidget* 
   connect(d->scene, &FieldScene::followedChanged, this, &FieldView::followedChanged);
   connect(d->pointer, &FieldPointer::ballRequested, this, [this] { d->openBallEditor(); });
   connect(d->pointer, &FieldPointer::poseRequested, this,
-          [this](RobotKey id) { d->openPoseEditor(id); });
+          [this](RobotUid id) { d->openPoseEditor(id); });
   if (!source) return;
   d->scene->setRows([source] { return source->series(); });
   connect(source, &FrameSource::rowsCame, d->scene, &FieldScene::rowsCame);
-  connect(source, &FrameSource::robotsRenamed, d->scene, &FieldScene::rename);
-  connect(source, &FrameSource::frameReceived, this, [this, source](const FramePtr& frame) {
+  const auto whyNot = [source](const FramePtr& frame) {
+    if (!source->kind().canBeEdited) return QStringLiteral("Only in Simulate");
     // The past cannot be moved by hand.
-    const bool past = frame && frame->origin == link::FrameOrigin::Recorded;
-    d->setReadOnly(past || source->kind() != SourceKind::Simulate);
+    return frame && frame->origin == link::FrameOrigin::Recorded ? MatchEdits::lockedText()
+                                                                 : QString();
+  };
+  connect(source, &FrameSource::frameReceived, this, [this, whyNot](const FramePtr& frame) {
+    d->setReadOnly(whyNot(frame));
     showFrame(frame);
   });
-  const auto begin = [this, source] {
-    d->setReadOnly(source->kind() != SourceKind::Simulate);
+  const auto begin = [this, source, whyNot] {
+    d->setReadOnly(whyNot({}));
     showFrame(source->frame());
   };
   connect(source, &FrameSource::restarted, this, begin);
   if (controller != nullptr) {
-    // Before its first frame: nobody sees a field of another league.
+    // Before the first frame, so that the field of another league never appears.
     connect(controller, &MatchController::scenarioChanged, this, [this, source, controller] {
-      if (source->kind() != SourceKind::Simulate || source->frame()) return;
+      if (source->frame() || !source->kind().canBeEdited) return;
       d->scene->setField(controller->scenario().settings.field);
       d->canvas->fit();
     });
   }
-  d->setReadOnly(source->kind() != SourceKind::Simulate);
+  d->setReadOnly(whyNot({}));
   d->canvas->setEmptyText([source] {
-    const bool open = source->kind() == SourceKind::Simulate && source->frame();
+    const bool open = source->kind().canBeEdited && source->frame();
     return open ? QString() : source->emptyText();
   });
 }
@@ -241,7 +250,6 @@ void FieldView::showFrame(const FramePtr& frame) {
   const bool otherField = frame && !(d->scene->style().field == frame->settings->field);
   const bool wasEmpty = !d->scene->frame() || d->scene->frame()->robots.empty();
   d->scene->showFrame(frame);
-  d->pointer->hold();
   if (otherField) d->canvas->fit();
   if (wasEmpty || !frame || frame->robots.empty()) d->canvas->viewport()->update();
   if (const auto id = d->scene->followed()) {
@@ -255,20 +263,20 @@ void FieldView::showOther(const FramePtr& frame) {
 void FieldView::showCompared(const FramePtr& frame) {
   d->scene->showCompared(frame);
 }
-void FieldView::showForecast(const ForecastPtr& forecast) {
-  d->scene->showForecast(forecast);
+void FieldView::showHeat(const BallHeatPtr& heat) {
+  d->scene->showHeat(heat);
 }
 
-std::vector<RobotKey> FieldView::selection() const {
+std::vector<RobotUid> FieldView::selection() const {
   return d->scene->selection();
 }
-void FieldView::select(const std::vector<RobotKey>& ids) {
+void FieldView::select(const std::vector<RobotUid>& ids) {
   d->scene->select(ids);
 }
-void FieldView::follow(std::optional<RobotKey> id) {
+void FieldView::follow(std::optional<RobotUid> id) {
   d->scene->setFollowed(id);
 }
-std::optional<RobotKey> FieldView::followed() const {
+std::optional<RobotUid> FieldView::followed() const {
   return d->scene->followed();
 }
 bool FieldView::hasRobotIn(const QRect& part) const {
@@ -285,7 +293,7 @@ void FieldView::fillRobotsMenu(QMenu* menu) {
   ui::fillRobotsMenu(menu, d->scene, d->controller, centre, d->menuActions());
 }
 
-void FieldView::editPose(RobotKey id) {
+void FieldView::editPose(RobotUid id) {
   d->openPoseEditor(id);
 }
 
@@ -294,7 +302,7 @@ void FieldView::selectNumber(int number) {
   if (!d->scene->frame()) return;
   for (const link::RobotFrame& robot : d->scene->frame()->robots) {
     const int its = robot.slot().value != 0 ? robot.slot().value : robot.key.number;
-    if (its == number) return d->scene->select({robot.key});
+    if (its == number) return d->scene->select({robot.uid});
   }
   d->scene->select({});
 }
@@ -328,9 +336,6 @@ bool FieldView::takePublishedKey(const QKeyEvent& event) {
 
 void FieldView::setFlipped(bool flipped) {
   d->tools->flip()->setChecked(flipped);
-}
-bool FieldView::isFlipped() const {
-  return d->tools->flip()->isChecked();
 }
 
 QSize FieldView::pictureSize(QSize within) const {

@@ -7,6 +7,7 @@
 #include <base/angles.h>
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/scenario/scenario.h>
+#include <ui/base/referee_text.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/pose_difference.h>
 
@@ -38,7 +39,7 @@ QString beliefText(const link::MatchFrame& frame, const link::RobotFrame& robot)
 
 }  // namespace
 
-QString hoverText(const link::MatchFrame& frame, RobotKey id) {
+QString hoverText(const link::MatchFrame& frame, RobotUid id) {
   const link::RobotFrame* robot = frame.robot(id);
   if (robot == nullptr) return {};
   QStringList lines;
@@ -51,14 +52,6 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   }
   lines << head;
   lines << QStringLiteral("Action: %1").arg(actionText(robot->decided.value_or(robot->action)));
-  if (robot->advice && robot->advice->isThinking) {
-    const link::AdviceView& advice = *robot->advice;
-    const std::string_view choice = link::adviceText(advice.choice);
-    lines << QStringLiteral("Advisor: %1, expected goal difference %2 (%3 rollouts)")
-                 .arg(QString::fromUtf8(choice.data(), static_cast<qsizetype>(choice.size())),
-                      fieldNumber(advice.value, 2))
-                 .arg(advice.rollouts);
-  }
   if (robot->cognitionDebug && robot->cognitionDebug->path &&
       !robot->cognitionDebug->path->points.empty()) {
     const link::PlannedPath& path = *robot->cognitionDebug->path;
@@ -86,7 +79,7 @@ QString hoverText(const link::MatchFrame& frame, RobotKey id) {
   }
   if (const auto& penalty = robot->penalty) {
     lines << QStringLiteral("Penalised: %1, %2")
-                 .arg(QString::fromStdString(penalty->text), durationText(penalty->secondsLeft));
+                 .arg(labelText(penalty->kind), durationText(penalty->secondsLeft));
   }
   lines.removeAll(QString());
   return lines.join(QLatin1Char('\n'));

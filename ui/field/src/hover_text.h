@@ -15,7 +15,7 @@ namespace pitchboard::ui {
 
 /// Lines of plain text: name, behaviour, action, target, how far its belief is off, what is wrong.
 /// Empty for a robot that is not in the frame.
-QString hoverText(const link::MatchFrame& frame, RobotKey id);
+QString hoverText(const link::MatchFrame& frame, RobotUid id);
 /// Position (m) and speed (m/s) of the true ball, which the frame must know.
 QString ballHoverText(const link::MatchFrame& frame);
 

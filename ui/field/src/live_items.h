@@ -6,8 +6,8 @@
 
 #include <vector>
 
+#include <base/team_color.h>
 #include <robotlink/frame/live_values.h>
-#include <simcore/world/team_color.h>
 #include "field_item.h"
 
 namespace pitchboard::ui {

@@ -124,7 +124,7 @@ std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRec
   std::vector<PlacedName> placed;
   Search search{robots, area, {}, tagSteps};
   DirectionsBefore kept;
-  std::vector<RobotKey> done;
+  std::vector<RobotUid> done;
   for (const NamedRobot& robot : robots) {
     if (robot.tag.isEmpty() || std::ranges::find(done, robot.id) != done.end()) continue;
     NamedRobot middle = robot;

@@ -18,7 +18,7 @@ namespace pitchboard::ui {
 
 /// A robot on the screen, in pixels.
 struct NamedRobot {
-  RobotKey id;
+  RobotUid id;
   QPointF at;
   double radius = 0.0;
   QSizeF name;           ///< how large its name is when written
@@ -28,13 +28,13 @@ struct NamedRobot {
 
 /// Where a name or a tag is written.
 struct PlacedName {
-  RobotKey id;
+  RobotUid id;
   QPointF centre;
   bool apart = false;  ///< so far away that a line has to say whose it is
 };
 
 /// The direction that each of them had, which is kept where it can be.
-using DirectionsBefore = std::map<RobotKey, int>;
+using DirectionsBefore = std::map<RobotUid, int>;
 
 /// Returns places for the tags, below their robots where there is room, and inside `area`. Of
 /// robots that share a tag only the first has a place: in the middle of them.
@@ -49,7 +49,7 @@ class NameLabelsItem : public FieldItem {
   using FieldItem::FieldItem;
 
   struct Robot {
-    RobotKey id;
+    RobotUid id;
     QPointF at;           ///< in the scene, m
     double radius = 0.0;  ///< as drawn, m
     QString name;         ///< empty: not to be written
@@ -58,7 +58,7 @@ class NameLabelsItem : public FieldItem {
   /// Also places the tags, which the robots paint themselves.
   void setRobots(std::vector<Robot> robots);
   /// In pixels from the robot, of those that have a tag.
-  const std::map<RobotKey, QPointF>& tags() const { return m_tags; }
+  const std::map<RobotUid, QPointF>& tags() const { return m_tags; }
 
   QRectF boundingRect() const override { return m_bounds; }
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
@@ -75,7 +75,7 @@ class NameLabelsItem : public FieldItem {
 
   std::vector<Robot> m_robots;
   std::vector<Label> m_labels;
-  std::map<RobotKey, QPointF> m_tags;
+  std::map<RobotUid, QPointF> m_tags;
   DirectionsBefore m_before, m_tagsBefore;
   QRectF m_bounds;
 };

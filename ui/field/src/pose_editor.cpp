@@ -66,7 +66,7 @@ PoseEditor::PoseEditor(PoseEdit edit, const sim::FieldSpec& field, QWidget* pare
   layout->addLayout(form);
   layout->addWidget(hint);
   for (NumberBox* box : boxes) {
-    connect(box, &NumberBox::valueChanged, this, [this] { m_edit.preview(pose()); });
+    connect(box, &NumberBox::valueChanged, this, [this] { m_edit.show(pose()); });
   }
   m_x->setFocus();
   m_x->selectAll();
@@ -98,11 +98,8 @@ void PoseEditor::keyPressEvent(QKeyEvent* event) {
 }
 
 void PoseEditor::closeEvent(QCloseEvent* event) {
-  if (m_cancelled) {
-    m_edit.preview(m_edit.from);
-  } else if (isChanged()) {
-    m_edit.keep(pose(), m_speed ? m_speed->value() : 0.0);
-  }
+  m_edit.show({});
+  if (!m_cancelled && isChanged()) m_edit.keep(pose(), m_speed ? m_speed->value() : 0.0);
   QFrame::closeEvent(event);
 }
 

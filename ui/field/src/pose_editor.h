@@ -2,11 +2,12 @@
 #pragma once
 
 // A small popup with the place of a robot, or place and speed of the ball, as numbers: metres,
-// degrees, metres per second. Changes
-// are shown at once; Enter keeps them as one undoable command, Esc puts back what was.
+// degrees, metres per second. What is typed is shown at once; Enter makes it one edit, Esc gives it
+// up.
 
 #include <QFrame>
 #include <functional>
+#include <optional>
 
 #include <base/geometry.h>
 #include <simcore/world/field.h>
@@ -19,10 +20,10 @@ class NumberBox;
 struct PoseEdit {
   QString title;
   Pose from;
-  bool isBall = false;                                  ///< the heading is that of its motion
-  double speed = 0.0;                                   ///< m/s, of the ball
-  std::function<void(const Pose&)> preview;             ///< while typing, and `from` on Esc
-  std::function<void(const Pose&, double speed)> keep;  ///< at most once, and only for a change
+  bool isBall = false;                                   ///< the heading is that of its motion
+  double speed = 0.0;                                    ///< m/s, of the ball
+  std::function<void(const std::optional<Pose>&)> show;  ///< while typing; empty: no longer
+  std::function<void(const Pose&, double speed)> keep;   ///< at most once, and only for a change
 };
 
 class PoseEditor : public QFrame {

@@ -26,7 +26,7 @@ QPointF across(const QPointF& direction) {
 
 }  // namespace
 
-RobotItem::RobotItem(const FieldStyle* style, RobotKey id) : FieldItem(style), m_id(id) {}
+RobotItem::RobotItem(const FieldStyle* style, RobotUid id) : FieldItem(style), m_id(id) {}
 
 void RobotItem::setLook(const RobotLook& look) {
   if (look == m_look) return;

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include <base/robot_key.h>
-#include <simcore/world/team_color.h>
+#include <base/team_color.h>
 
 #include "field_item.h"
 
@@ -30,10 +30,9 @@ struct RobotLook {
 
 class RobotItem : public FieldItem {
  public:
-  RobotItem(const FieldStyle* style, RobotKey id);
+  RobotItem(const FieldStyle* style, RobotUid id);
 
-  RobotKey id() const { return m_id; }
-  void setKey(const RobotKey& key) { m_id = key; }
+  RobotUid id() const { return m_id; }
   const RobotLook& look() const { return m_look; }
   void setLook(const RobotLook& look);
   /// Where its tag is painted, in pixels from its centre; null: it is not painted.
@@ -51,7 +50,7 @@ class RobotItem : public FieldItem {
   void paintSelection(QPainter* painter, const ScreenPainting& screen, double radius) const;
   void paintBody(QPainter* painter, const ScreenPainting& screen, double radius) const;
 
-  RobotKey m_id;
+  RobotUid m_id;
   RobotLook m_look;
   std::optional<QPointF> m_tagPosition;  // pixels
 };

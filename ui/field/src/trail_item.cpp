@@ -11,7 +11,7 @@
 namespace pitchboard::ui {
 namespace {
 
-/// Whether a line passes all these points so closely that nobody sees the difference.
+/// Returns whether a line passes all these points within a fraction of a pixel.
 bool passes(const QPointF& from, const QPointF& to, const QPointF* points, int count) {
   constexpr double tolerance_px = 0.6;
   const QPointF offset = to - from;
@@ -34,7 +34,7 @@ void TrailItem::clear() {
 
 void TrailItem::append(const Point& position, double time) {
   const QPointF at = toScene(position);
-  if (m_count > 0 && (time < m_now || distance(at, m_tip) > longestJump)) clear();
+  if (m_count > 0 && (time < m_now || distance(at, m_tip) > maxJump)) clear();
   if (m_count > 0 && time == m_now && at == m_tip) return;
   const bool tipMoved = m_count == 0 || at != m_tip;
   m_now = time;

@@ -12,9 +12,9 @@ namespace pitchboard::ui {
 
 class TrailItem : public FieldItem {
  public:
-  static constexpr double seconds = 8.0;      ///< simulated
-  static constexpr double step = 0.03;        ///< metres between points
-  static constexpr double longestJump = 0.4;  ///< metres; more is a move by hand, not a walk
+  static constexpr double seconds = 8.0;  ///< simulated
+  static constexpr double step = 0.03;    ///< metres between points
+  static constexpr double maxJump = 0.4;  ///< metres; more is a move by hand, not a walk
 
   using FieldItem::FieldItem;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <ui/base/theme.h>
 
@@ -44,6 +45,10 @@ void ViewWedgeItem::setCamera(double opening, double range) {
   m_range = range;
 }
 
+void ViewWedgeItem::setShare(double share) {
+  if (std::exchange(m_share, share) != share) update();
+}
+
 void ViewWedgeItem::setHead(const Point& position, double headYaw) {
   if (!m_otherCamera && position == m_position && headYaw == m_yaw &&
       isVisible() == !m_outline.isEmpty())
@@ -77,7 +82,9 @@ QRectF ViewWedgeItem::boundingRect() const {
 void ViewWedgeItem::paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) {
   if (m_outline.size() < 3) return;
   QColor fill = isDarkTheme() ? theme().fieldLines : QColor(Qt::white);
-  fill.setAlphaF(isDarkTheme() ? 0.13F : 0.22F);
+  // A single one of many is still to be seen.
+  const double bright = isDarkTheme() ? 0.13 : 0.22;
+  fill.setAlphaF(static_cast<float>(std::max(0.03, bright * m_share)));
   painter->setPen(Qt::NoPen);
   painter->setBrush(fill);
   // The edge drawn over it is smooth; a fill without smooth edges has few spans and is fast.

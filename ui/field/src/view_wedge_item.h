@@ -17,6 +17,8 @@ class ViewWedgeItem : public FieldItem {
   /// What this kind of robot sees: rad in all, metres. Shows with the next setHead().
   void setCamera(double opening, double range);
   void setHead(const Point& position, double headYaw);
+  /// How much of the usual brightness its ground has, 0 to 1.
+  void setShare(double share);
   void styleChanges() override;
 
   QRectF boundingRect() const override;
@@ -26,6 +28,7 @@ class ViewWedgeItem : public FieldItem {
   Point m_position;
   double m_yaw = 0.0;
   double m_opening = 0.0, m_range = 0.0;
+  double m_share = 1.0;
   bool m_otherCamera = false;
   QPolygonF m_outline;
 };

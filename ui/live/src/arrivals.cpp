@@ -14,7 +14,7 @@ class Arrivals::Keeper : public link::LiveObserver {
   }
 
   void take(const telemetry::DatagramView& datagram) {
-    if (datagram.payload.size() > longestPayload) return;
+    if (datagram.payload.size() > maxPayloadLength) return;
     const std::lock_guard lock(m_mutex);
     const auto known = std::ranges::find_if(m_arrivals, [&](const Arrival& one) {
       return one.sender.address == datagram.sender.address && one.localPort == datagram.localPort;
@@ -62,6 +62,7 @@ void Arrivals::listenAt(const std::vector<std::uint16_t>& ports) {
   telemetry::ReceiverOptions options;
   options.bind = m_live->options().bind;
   options.ports = m_ports;
+  options.yieldsToFirst = true;
   if (auto receiver = telemetry::UdpReceiver::start(std::move(options))) {
     m_receiver = std::move(*receiver);
   }
@@ -70,7 +71,10 @@ void Arrivals::listenAt(const std::vector<std::uint16_t>& ports) {
 std::vector<Arrival> Arrivals::newest() {
   telemetry::DatagramBatch batch;
   while (m_receiver && m_receiver->take(batch)) {
-    for (std::size_t i = 0; i < batch.size(); ++i) m_keeper->take(batch[i]);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      const bool isSimulated = telemetry::isSimulated(batch[i].sender.address);
+      if (!isSimulated || m_live->options().simulated) m_keeper->take(batch[i]);
+    }
   }
   std::vector<Arrival> all = m_keeper->newest();
   std::ranges::sort(all, {}, [](const Arrival& one) {

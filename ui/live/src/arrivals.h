@@ -28,7 +28,7 @@ struct Arrival {
 class Arrivals {
  public:
   static constexpr std::size_t most = 64;
-  static constexpr std::size_t longestPayload = 4096;  ///< longer ones are not kept
+  static constexpr std::size_t maxPayloadLength = 4096;  ///< longer ones are not kept
 
   explicit Arrivals(LiveController* live);
   ~Arrivals();

@@ -17,6 +17,7 @@
 
 #include <robotlink/blackboard/segments.h>
 #include <ui/base/dialog_size.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/number_box.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
@@ -234,7 +235,7 @@ void AttachDialog::chooseCatalog(int index) {
     m_catalog->setItemData(place, file, Qt::ToolTipRole);
     m_catalog->setCurrentIndex(place);
   });
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 bool AttachDialog::attach() {

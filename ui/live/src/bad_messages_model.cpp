@@ -18,7 +18,7 @@ void BadMessagesModel::add(std::vector<Row>& rows, const QString& who,
 
 void BadMessagesModel::update(const link::LiveDetails& details) {
   std::vector<Row> rows;
-  add(rows, QStringLiteral("everybody"), details.team.errors);
+  add(rows, QStringLiteral("All robots"), details.team.errors);
   for (const telemetry::RobotStatus& robot : details.team.robots) {
     add(rows,
         QStringLiteral("robot %1 at %2")

@@ -9,6 +9,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include <ui/base/file_dialog.h>
 #include <ui/base/theme.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/sources/live_controller.h>
@@ -82,6 +83,7 @@ void LiveBar::refresh() {
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.problem.empty()) tip << QString::fromStdString(port.problem);
   }
+  if (!details.sharedPorts.empty()) tip << QString::fromStdString(details.sharedPorts);
   m_ports->setToolTip(tip.join(QLatin1Char('\n')));
   m_monitor->setChecked(options.monitor.has_value());
   m_monitor->setToolTip(
@@ -131,9 +133,9 @@ void LiveBar::importCatalog() {
     std::erase(options.catalogs, path);
     options.catalogs.push_back(path);
     m_live->setOptions(options);  // says what is wrong with it
-    saveCatalogs(*m_settings, m_live->options().catalogs);
+    saveLiveOption(*m_settings, "catalogs", m_live->options());
   });
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 void LiveBar::showTeams() {
@@ -146,8 +148,7 @@ void LiveBar::showTeams() {
   QList<Entry> wanted{{QStringLiteral("Our team: choose"), 0}};
   const FramePtr frame = m_live->frame();
   const bool isColour = m_live->options().ourColour && m_live->options().ourTeam == 0;
-  const int ours =
-      isColour && frame && frame->referee ? frame->referee->ourTeam : m_live->options().ourTeam;
+  const int ours = isColour && frame ? frame->reception.ourTeam : m_live->options().ourTeam;
   // Packets have numbers; setups know the names.
   const std::vector<telemetry::TeamSetup>& setups = m_live->options().team.teams;
   const auto nameOf = [&setups](int number) {
@@ -156,10 +157,11 @@ void LiveBar::showTeams() {
                ? QStringLiteral("Team %1").arg(number)
                : QStringLiteral("%1, team %2").arg(QString::fromStdString(known->name)).arg(number);
   };
-  if (frame && frame->referee) {
-    for (const link::RefereeTeamView& team : frame->referee->teams) {
+  if (frame && frame->game) {
+    for (const GameTeam& team : frame->game->teams) {
       wanted.append(
-          {QStringLiteral("%1 (%2)").arg(nameOf(team.number), QString::fromStdString(team.colour)),
+          {QStringLiteral("%1 (%2)").arg(
+               nameOf(team.number), QString::fromStdString(std::string(info(team.colour).name))),
            team.number});
     }
   } else {

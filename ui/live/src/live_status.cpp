@@ -12,23 +12,37 @@
 namespace pitchboard::ui {
 namespace {
 
-QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* frame) {
-  if (!details.networkProblem.empty()) return QString::fromStdString(details.networkProblem);
-  if (!details.monitorProblem.empty()) return QString::fromStdString(details.monitorProblem);
+/// The most urgent first.
+std::vector<LiveTrouble> troublesOf(const link::LiveDetails& details,
+                                    const link::MatchFrame* frame) {
+  std::vector<LiveTrouble> all;
+  const auto add = [&all](const QString& key, const QString& text) { all.push_back({key, text}); };
+  if (!details.networkProblem.empty())
+    add(QStringLiteral("network"), QString::fromStdString(details.networkProblem));
+  if (!details.monitorProblem.empty())
+    add(QStringLiteral("monitor"), QString::fromStdString(details.monitorProblem));
   QStringList closed;
+  bool isShared = false;
   for (const telemetry::PortStatus& port : details.network.ports) {
     if (!port.bound) closed << QString::number(port.port);
+    isShared = isShared || port.broadcastsOnly || port.othersTakeAll;
   }
   if (!closed.isEmpty()) {
-    return QStringLiteral("Cannot receive on port %1 (retrying)")
-        .arg(closed.mid(0, 4).join(QStringLiteral(", ")) +
-             (closed.size() > 4 ? QStringLiteral(", …") : QString()));
+    add(QStringLiteral("ports"), QStringLiteral("Cannot receive on port %1 (retrying)")
+                                     .arg(closed.mid(0, 4).join(QStringLiteral(", ")) +
+                                          (closed.size() > 4 ? QStringLiteral(", …") : QString())));
   }
-  if (frame == nullptr) return {};
+  if (isShared && !details.sharedPorts.empty())
+    add(QStringLiteral("shared"), QString::fromStdString(details.sharedPorts));
+  if (frame == nullptr) return all;
+  if (frame->reception.conflict)
+    add(QStringLiteral("referee"), QStringLiteral("A second referee program is sending"));
   for (const link::RobotFrame& robot : frame->robots) {
     if (!robot.link) continue;
+    const QString key = QString::number(robot.uid.value);
     if (robot.link->conflict) {
-      return QStringLiteral("Two programs send as robot %1").arg(robot.identity.number);
+      add(QStringLiteral("two ") + key,
+          QStringLiteral("Two programs send as robot %1").arg(robot.identity.number));
     }
     // Another program that sends the same number is enough.
     const bool stillReceived = std::ranges::any_of(frame->robots, [&robot](const auto& other) {
@@ -36,14 +50,12 @@ QString troubleOf(const link::LiveDetails& details, const link::MatchFrame* fram
              other.key.number == robot.key.number;
     });
     if (robot.timedOut() && !stillReceived) {
-      return QStringLiteral("%1 has been offline for %2. Its card returns when it sends again.")
-          .arg(robotName(robot), durationText(telemetry::secondsOf(robot.link->age)));
+      add(QStringLiteral("offline ") + key,
+          QStringLiteral("%1 has been offline for %2. Its card returns when it sends again.")
+              .arg(robotName(robot), durationText(telemetry::secondsOf(robot.link->age))));
     }
   }
-  if (frame->referee && frame->referee->conflict) {
-    return QStringLiteral("A second referee program is sending");
-  }
-  return {};
+  return all;
 }
 
 QString sentText(const link::SentStatus& sent) {
@@ -58,7 +70,7 @@ QString sentText(const link::SentStatus& sent) {
                countText(link.late), countText(link.duplicates), numberText(link.jitter * 1000, 0),
                numberText(sent.clockOffset, 3));
   if (sent.waiting.value_or(0) > 0) {
-    text += QStringLiteral(", %1 changes wait for bandwidth").arg(*sent.waiting);
+    text += QStringLiteral(", %1 changes waiting").arg(*sent.waiting);
   }
   if (!sent.blackboard) text += QStringLiteral(", no blackboard on the robot");
   return text;
@@ -77,10 +89,26 @@ double RateWindow::look(double seconds, quint64 count) {
   return seconds > began ? static_cast<double>(count - first) / (seconds - began) : 0.0;
 }
 
+QString LiveStatus::newestOf(const std::vector<LiveTrouble>& troubles, double seconds) {
+  std::map<QString, double> since;
+  const LiveTrouble* newest = nullptr;
+  for (const LiveTrouble& one : troubles) {
+    const auto known = m_since.find(one.key);
+    since[one.key] = known == m_since.end() ? seconds : known->second;
+    if (newest == nullptr || since[one.key] > since[newest->key]) newest = &one;
+  }
+  m_since = std::move(since);
+  if (newest == nullptr) return {};
+  return troubles.size() == 1
+             ? newest->text
+             : QStringLiteral("%1 (+%2 more)").arg(newest->text).arg(troubles.size() - 1);
+}
+
 LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::MatchFrame* frame,
                                   double seconds) {
-  const quint64 referee = details.referee.shown + details.referee.compatibility +
-                          details.referee.otherSenders + details.referee.trueData;
+  const quint64 referee = details.referee.shown + details.referee.repeated + details.referee.late +
+                          details.referee.compatibility + details.referee.otherSenders +
+                          details.referee.trueData;
   quint64 datagrams = details.team.datagrams;
   for (const link::SentStatus& sent : details.sent) datagrams += sent.link.messages;
   const double rate = m_robots.look(seconds, datagrams);
@@ -95,19 +123,24 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                           countText(lost),
                           countText(details.team.errors.messages() + details.unknownReferee +
                                     details.badVariables));
-  text.referee = frame == nullptr || !frame->referee ? QStringLiteral("No referee")
-                                                     : QStringLiteral("%1Referee: version %2, %3/s")
-                                                           .arg(teamsText(*frame))
-                                                           .arg(frame->referee->version)
-                                                           .arg(numberText(refereeRate, 1));
-  text.trouble = troubleOf(details, frame);
+  text.referee = frame == nullptr || !frame->game
+                     ? QStringLiteral("No referee")
+                     : QStringLiteral("%1%2: version %3, %4/s")
+                           .arg(teamsText(*frame), frame->reception.simulated
+                                                       ? QStringLiteral("Simulated referee")
+                                                       : QStringLiteral("Referee"))
+                           .arg(frame->reception.version)
+                           .arg(numberText(refereeRate, 1));
+  const std::vector<LiveTrouble> troubles = troublesOf(details, frame);
+  text.trouble = newestOf(troubles, seconds);
   const quint64 refused = details.team.refusedByFilter + details.refusedVariables +
                           details.refusedReferees + details.team.refusedRobots;
   if (refused > 0) text.network += QStringLiteral(", %1 refused").arg(countText(refused));
-  QStringList tip{QStringLiteral("%1 datagrams; lost: %2 in the kernel, %3 here")
-                      .arg(countText(details.network.datagrams()),
-                           countText(details.network.kernelDrops()),
-                           countText(details.network.queueDrops))};
+  QStringList tip;
+  for (const LiveTrouble& one : troubles) tip << one.text;
+  tip << QStringLiteral("%1 datagrams; lost: %2 in the kernel, %3 here")
+             .arg(countText(details.network.datagrams()), countText(details.network.kernelDrops()),
+                  countText(details.network.queueDrops));
   if (refused > 0) {
     tip << QStringLiteral(
                "refused: %1 from robots and %2 from referees not on the lists, %3 beyond the robot "
@@ -121,6 +154,11 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
     else if (port.datagrams > 0) {
       tip << QStringLiteral("port %1: %2 datagrams").arg(port.port).arg(countText(port.datagrams));
     }
+  }
+  if (!details.sharedPorts.empty()) tip << QString::fromStdString(details.sharedPorts);
+  if (details.ignoredSimulated > 0) {
+    tip << QStringLiteral("%1 datagrams of simulated matches ignored (Live > Settings and teams)")
+               .arg(countText(details.ignoredSimulated));
   }
   for (const link::SentStatus& sent : details.sent) tip << sentText(sent);
   text.tip = tip.join(QLatin1Char('\n'));

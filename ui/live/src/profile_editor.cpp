@@ -21,6 +21,7 @@
 
 #include <base/file_target.h>
 #include <ui/base/dialog_size.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_controller.h>
 
@@ -365,7 +366,7 @@ void ProfileEditor::askAndSave() {
   ask->setAcceptMode(QFileDialog::AcceptSave);
   ask->setDefaultSuffix(QStringLiteral("json"));
   connect(ask, &QFileDialog::fileSelected, this, &ProfileEditor::saveTo);
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 }  // namespace pitchboard::ui

@@ -4,6 +4,7 @@
 #include <QStringList>
 
 #include <robotlink/live/live_teams.h>
+#include <telemetry/wire/gamecontroller.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -11,12 +12,12 @@ namespace {
 using telemetry::DecodedText;
 using telemetry::TextDecoder;
 
-constexpr std::size_t mostFields = 12;  // more do not fit into a line
+constexpr std::size_t maxFields = 12;  // more do not fit into a line
 
 QString valuesOf(const TextDecoder& decoder, const DecodedText& decoded) {
   QStringList parts;
   const auto& fields = decoder.profile().fields;
-  for (std::size_t i = 0; i < decoded.count && parts.size() < qsizetype{mostFields}; ++i) {
+  for (std::size_t i = 0; i < decoded.count && parts.size() < qsizetype{maxFields}; ++i) {
     if (i < fields.size() && fields[i].meaning == telemetry::FieldMeaning::Robot) continue;
     const QString name = QString::fromStdString(decoder.name(decoded, i));
     if (decoded.has(i)) {
@@ -44,7 +45,7 @@ QString knownFormats(const Arrival& arrival, std::span<const KnownFormat> known)
 }
 
 QString robotText(const link::LiveOptions& options, const RobotKey& robot) {
-  QString text = QString::fromStdString(link::robotName(robot, link::teamsOf(options, nullptr)));
+  QString text = QString::fromStdString(link::robotName(robot, link::teamsOf(options, {})));
   const std::string own = link::ownNameOf(options, robot);
   if (!own.empty()) text += QLatin1Char(' ') + QString::fromStdString(own);
   if (const auto* team = telemetry::setupAt(robot.team, options.team.teams)) {
@@ -67,6 +68,18 @@ std::vector<PreviewRow> previewOf(const std::vector<Arrival>& arrivals,
     row.sender = QString::fromStdString(arrival.sender.address.text());
     row.port = arrival.localPort;
     row.messages = arrival.count;
+    if (const auto packet = telemetry::decodeReferee(arrival.payload)) {
+      row.used = arrival.localPort == options.refereePort;
+      row.robot = QStringLiteral("Referee");
+      const auto* state = std::get_if<telemetry::RefereeState>(&*packet);
+      row.values = state != nullptr
+                       ? QStringLiteral("GameController packet, version %1").arg(state->version)
+                       : QStringLiteral("GameController packet");
+      if (!row.used) {
+        row.values += QStringLiteral("; the referee's port is %1").arg(options.refereePort);
+      }
+      continue;
+    }
     const bool listed = options.team.senders.allows(arrival.sender.address);
     const auto decoder = listed ? router.decode(arrival.view(), decoded) : nullptr;
     if (decoder && decoded.accepted()) {

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include <robotlink/live/live_teams.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 
@@ -165,7 +166,7 @@ QWidget* TeamsPage::makeForm() {
   ports->addWidget(new QLabel(QStringLiteral("to"), widget));
   ports->addWidget(m_lastPort, 1);
   form->addRow(QStringLiteral("Ports"), ports);
-  m_senders = addLine("teamSenders", QStringLiteral("Only from"), QStringLiteral("everybody"));
+  m_senders = addLine("teamSenders", QStringLiteral("Only from"), QStringLiteral("all senders"));
   m_senders->setToolTip(
       QStringLiteral("Addresses and networks, e.g. 192.168.0.7, 192.168.18.0/24"));
   m_profile = new QComboBox(widget);
@@ -205,9 +206,9 @@ Result<std::vector<telemetry::TeamSetup>> TeamsPage::teams() const {
 }
 
 void TeamsPage::add(TeamDraft draft) {
-  if (m_drafts.size() >= telemetry::TeamSetup::mostTeams) {
+  if (m_drafts.size() >= telemetry::TeamSetup::maxTeams) {
     return showStatus(QStringLiteral("Live can receive at most %1 teams. Remove one first.")
-                          .arg(telemetry::TeamSetup::mostTeams),
+                          .arg(telemetry::TeamSetup::maxTeams),
                       true);
   }
   m_drafts.push_back(std::move(draft));
@@ -296,7 +297,7 @@ void TeamsPage::chooseProfile(int index) {
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setFileMode(QFileDialog::ExistingFile);
   connect(ask, &QFileDialog::fileSelected, this, use);
-  ask->open();
+  openInDialogFolder(ask);
 }
 
 void TeamsPage::take() {
@@ -344,7 +345,7 @@ void TeamsPage::ask(bool save) {
     const auto done = save ? this->save(path) : load(path);
     showStatus(done ? QString() : QString::fromStdString(done.error().text()), true);
   });
-  dialog->open();
+  openInDialogFolder(dialog);
 }
 
 void TeamsPage::preview() {

@@ -5,7 +5,6 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
-#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMessageBox>
@@ -13,14 +12,16 @@
 #include <QTime>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <cmath>
+#include <limits>
 
 #include <base/file_target.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "log_model.h"
 
@@ -29,12 +30,10 @@ namespace {
 
 class LogDock : public QWidget {
  public:
-  LogDock(MatchController* controller, const SourceSwitch* shown, Timeline* timeline,
-          QWidget* parent)
+  LogDock(MatchController* controller, ShownMoment* shown, QWidget* parent)
       : QWidget(parent),
         m_controller(controller),
-        m_source(shown),
-        m_timeline(timeline),
+        m_shown(shown),
         m_model(new LogModel(this)),
         m_filter(new LogFilter(this)),
         m_table(new QTableView(this)),
@@ -44,7 +43,12 @@ class LogDock : public QWidget {
     m_table->setModel(m_filter);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    m_table->setColumnWidth(LogModel::Time, scaled(this, 80));
+    // A time of day in Live, an hour and more in a long session.
+    const QFontMetricsF digits(m_table->font());
+    m_table->setColumnWidth(
+        LogModel::Time,
+        static_cast<int>(std::ceil(digits.horizontalAdvance(QStringLiteral("88:88:88.888")))) +
+            scaled(this, 16));
     m_table->setColumnWidth(LogModel::Origin, scaled(this, 160));
 
     auto* words = new QLineEdit(this);
@@ -52,20 +56,22 @@ class LogDock : public QWidget {
     words->setPlaceholderText(QStringLiteral("Filter by words, e.g. B1 goal"));
     words->setClearButtonEnabled(true);
     words->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
-    connect(words, &QLineEdit::textChanged, m_filter, &TextFilter::setFilterText);
+    connect(words, &QLineEdit::textChanged, this, [this](const QString& text) {
+      refilter([this, &text] { m_filter->setFilterText(text); });
+    });
     auto* level = new QComboBox(this);
     level->setObjectName(QStringLiteral("logLevel"));
     level->addItem(QStringLiteral("All lines"), static_cast<int>(LogLevel::Info));
     level->addItem(QStringLiteral("Warnings and errors"), static_cast<int>(LogLevel::Warning));
     level->addItem(QStringLiteral("Errors"), static_cast<int>(LogLevel::Error));
     connect(level, &QComboBox::currentIndexChanged, this, [this, level] {
-      m_filter->setLeast(static_cast<LogLevel>(level->currentData().toInt()));
+      refilter([&] { m_filter->setLeast(static_cast<LogLevel>(level->currentData().toInt())); });
     });
     m_start->setObjectName(QStringLiteral("logStartLines"));
     m_start->setCheckable(true);
     m_start->setToolTip(QStringLiteral("Show start-up output of processes"));
     connect(m_start, &QToolButton::toggled, this,
-            [this](bool on) { m_filter->showStartLines(on); });
+            [this](bool on) { refilter([this, on] { m_filter->showStartLines(on); }); });
     m_follow->setObjectName(QStringLiteral("logFollow"));
     m_follow->setText(QStringLiteral("Follow"));
     m_follow->setCheckable(true);
@@ -111,11 +117,11 @@ class LogDock : public QWidget {
       if (QApplication::keyboardModifiers() == Qt::NoModifier) goTo(index);
     });
     connect(m_table, &QTableView::activated, this, &LogDock::goTo);
-    for (const auto moved : {&Timeline::moved, &Timeline::sourceChanged}) {
-      connect(timeline, moved, this, &LogDock::showMoment);
+    for (const auto moved : {&ShownMoment::moved, &ShownMoment::sourceChanged}) {
+      connect(shown, moved, this, &LogDock::showMoment);
     }
-    connect(timeline, &Timeline::lookingBackChanged, this, &LogDock::showMoment);
-    // Who scrolls up wants to read there; who comes back to the end wants to see what is new.
+    connect(shown, &ShownMoment::lookingBackChanged, this, &LogDock::showMoment);
+    // Scrolling up stops following, and scrolling back to the end follows again.
     connect(m_table->verticalScrollBar(), &QAbstractSlider::actionTriggered, this, [this] {
       const QScrollBar* bar = m_table->verticalScrollBar();
       m_follow->setChecked(bar->sliderPosition() >= bar->maximum());
@@ -132,14 +138,19 @@ class LogDock : public QWidget {
     for (FrameSource* source : shown->sources()) {
       connect(source, &FrameSource::logReceived, this,
               [this, source](const std::vector<LogLine>& lines) {
-                append(lines, source->clock(), source->kind());
+                append(lines, source->clock(), &source->kind());
               });
       connect(source, &FrameSource::eventsReceived, this,
               [this, source](const std::vector<link::MatchEvent>& events) {
                 appendEvents(events, source->clock(), source->kind());
               });
       connect(source, &FrameSource::restarted, this, [this, source] {
-        if (source->kind() != SourceKind::Simulate) return;
+        // Another session has lines of its own.
+        if (!source->kind().hasPresent) {
+          m_model->rewind(source->kind(), -std::numeric_limits<double>::infinity());
+          showStartLines();
+        }
+        if (source != m_controller) return;
         m_model->divide(source->kind(),
                         QStringLiteral("%1 started, %2")
                             .arg(QString::fromStdString(m_controller->scenario().title),
@@ -150,13 +161,17 @@ class LogDock : public QWidget {
         showStartLines();
       });
     }
+    connect(shown, &ShownMoment::sourceChosen, this,
+            [this] { m_filter->showRecorded(!m_shown->kind().hasPresent); });
+    connect(shown, &ShownMoment::sourceChosen, this,
+            [this] { m_model->setMoment(m_shown->kind(), m_shown->chosenTime()); });
     m_model->setTimesOfDay(shown->timesOfDay());
-    connect(shown, &SourceSwitch::timesOfDayChanged, m_model, &LogModel::setTimesOfDay);
+    connect(shown, &ShownMoment::timesOfDayChanged, m_model, &LogModel::setTimesOfDay);
     connect(m_controller, &MatchController::errorOccurred, this, [this](const QString& sentence) {
       const FramePtr frame = m_controller->frame();
       append({{frame ? frame->snapshot.time : 0.0, "studio", sentence.toStdString(),
                LogLevel::Warning}},
-             {}, SourceKind::Simulate);
+             {}, &m_controller->kind());
     });
   }
 
@@ -175,22 +190,45 @@ class LogDock : public QWidget {
   void goTo(const QModelIndex& index) {
     const QModelIndex row = index.siblingAtColumn(0);
     if (row.data(LogModel::shownRole).toBool())
-      m_timeline->seek(row.data(LogModel::timeRole).toDouble());
+      m_shown->seek(row.data(LogModel::timeRole).toDouble());
   }
 
-  bool isPast() const { return m_timeline->isLookingBack() || m_timeline->isRecording(); }
+  bool isPast() const { return m_shown->chosenTime().has_value(); }
 
   void showMoment() {
     if (!isPast() && !m_wasPast) return;
     m_wasPast = isPast();
-    m_model->setMoment(m_source->kind(),
-                       isPast() ? std::optional(m_timeline->shownTime()) : std::nullopt);
+    m_model->setMoment(m_shown->kind(), m_shown->chosenTime());
     scroll();
   }
 
-  void scroll() {
-    // Who clicks on a line has it in sight.
-    if (!m_follow->isChecked() || m_table->underMouse()) return;
+  /// Changes the filter and keeps the place: the moment shown or the end while the list follows,
+  /// else the line at the top.
+  template <class Change>
+  void refilter(Change change) {
+    const QScrollBar* bar = m_table->verticalScrollBar();
+    // A short list cannot show every place at its top: until somebody scrolls, the place stays.
+    const bool stays = m_place.isValid() && bar->value() == m_placeAt;
+    QPersistentModelIndex top = m_place;
+    if (!stays) top = m_filter->mapToSource(m_filter->index(m_table->rowAt(0), 0));
+    change();
+    // The range of the scroll bar is that of the lines before until they are laid out.
+    m_table->doItemsLayout();
+    m_place = QModelIndex();
+    if (m_follow->isChecked()) return scroll(true);
+    int row = top.row();
+    QModelIndex next;
+    for (; row >= 0 && row < m_model->rowCount() && !next.isValid(); ++row) {
+      next = m_filter->mapFromSource(m_model->index(row, 0));
+    }
+    if (next.isValid()) m_table->scrollTo(next, QAbstractItemView::PositionAtTop);
+    m_place = top;
+    m_placeAt = bar->value();
+  }
+
+  void scroll(bool always = false) {
+    // A line that the user clicks is in sight already.
+    if (!always && (!m_follow->isChecked() || m_table->underMouse())) return;
     if (!isPast()) {
       m_table->scrollToBottom();
       return;
@@ -198,7 +236,11 @@ class LogDock : public QWidget {
     int row = m_model->rowAtMoment();
     QModelIndex shown;
     while (row >= 0 && !shown.isValid()) shown = m_filter->mapFromSource(m_model->index(row--, 0));
-    if (shown.isValid()) m_table->scrollTo(shown);
+    if (shown.isValid()) {
+      m_table->scrollTo(shown);
+    } else {
+      m_table->scrollToTop();
+    }
   }
 
   void showStartLines() {
@@ -207,25 +249,25 @@ class LogDock : public QWidget {
   }
 
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
-              std::optional<SourceKind> of = {}, bool events = false) {
+              const SourceKind* of = nullptr, bool events = false) {
     m_model->append(lines, clock, of, events);
     showStartLines();
     if (!isPast() && m_follow->isChecked()) m_table->scrollToBottom();
   }
 
   void appendEvents(const std::vector<link::MatchEvent>& events,
-                    const std::optional<QDateTime>& clock, SourceKind of) {
+                    const std::optional<QDateTime>& clock, const SourceKind& of) {
     std::vector<LogLine> lines;
     for (const link::MatchEvent& event : events) {
       if (event.kind == link::MatchEventKind::Undone) {
-        append(std::exchange(lines, {}), clock, of);
+        append(std::exchange(lines, {}), clock, &of);
         m_model->strike(of, event.cause);
         continue;
       }
       lines.push_back(logLineOf(event));
       if (event.kind == link::MatchEventKind::ProcessStarted) lines.back().level = LogLevel::Debug;
     }
-    append(lines, clock, of, true);
+    append(lines, clock, &of, true);
   }
 
   static QString textOf(const QModelIndex& row) {
@@ -241,14 +283,13 @@ class LogDock : public QWidget {
   }
 
   void askAndSave() {
-    const QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Save the log"),
-                                                      QStringLiteral("log.txt"),
-                                                      QStringLiteral("Text files (*.txt)"));
-    if (path.isEmpty()) return;
-    QByteArray text;
+    QByteArray text;  // taken before the dialog, behind which lines come and go
     for (int row = 0; row < m_filter->rowCount(); ++row) {
       text += textOf(m_filter->index(row, 0)).toUtf8() + '\n';
     }
+    const QString path = askToSave(this, QStringLiteral("Save the log"), QStringLiteral("log.txt"),
+                                   QStringLiteral("Text files (*.txt)"));
+    if (path.isEmpty()) return;
     const auto written =
         writeFile(path.toStdString(), {text.constData(), static_cast<std::size_t>(text.size())},
                   IfExists::Replace);
@@ -258,9 +299,10 @@ class LogDock : public QWidget {
   }
 
   MatchController* m_controller;
-  const SourceSwitch* m_source;
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   bool m_wasPast = false;
+  QPersistentModelIndex m_place;  ///< the line that a changed filter was to keep
+  int m_placeAt = 0;              ///< where the table stood for it
   LogModel* m_model;
   LogFilter* m_filter;
   QTableView* m_table;
@@ -271,9 +313,8 @@ class LogDock : public QWidget {
 
 }  // namespace
 
-QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
-                     QWidget* parent) {
-  return new LogDock(controller, source, timeline, parent);
+QWidget* makeLogDock(MatchController* controller, ShownMoment* shown, QWidget* parent) {
+  return new LogDock(controller, shown, parent);
 }
 
 }  // namespace pitchboard::ui

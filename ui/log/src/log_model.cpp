@@ -3,6 +3,7 @@
 
 #include <QFont>
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <ui/base/theme.h>
@@ -23,7 +24,7 @@ const std::string& LogModel::partOf(const Line& line) {
 }
 
 void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock,
-                      std::optional<SourceKind> of, bool events) {
+                      const SourceKind* of, bool events) {
   const std::size_t kept = std::min(lines.size(), maxLines);
   m_dropped += lines.size() - kept;
   std::vector<Line> made;
@@ -47,18 +48,50 @@ void LogModel::insert(std::vector<Line> lines) {
 }
 
 void LogModel::makeRoom() {
-  while (m_lines.size() > maxLines) {
-    const auto longest = std::max_element(
-        m_counts.begin(), m_counts.end(),
-        [](const auto& one, const auto& other) { return one.second < other.second; });
-    const std::string part = longest->first;
-    const auto isIts = [&part](const Line& line) { return partOf(line) == part; };
-    const auto first = std::find_if(m_lines.begin(), m_lines.end(), isIts);
-    const auto surplus = static_cast<std::ptrdiff_t>(m_lines.size() - maxLines);
-    const auto most = first + std::min(surplus, m_lines.end() - first);
-    const auto last = std::find_if_not(first, most, isIts);
-    m_dropped += static_cast<quint64>(last - first);
-    forget(first, last);
+  if (m_lines.size() <= maxLines + surplusLines) return;
+  const std::size_t surplus = m_lines.size() - maxLines;
+  // Parts give up what is above this level, so that the longest ones become equally long.
+  const auto above = [this](std::size_t level) {
+    std::size_t sum = 0;
+    for (const auto& [part, count] : m_counts) sum += count - std::min(count, level);
+    return sum;
+  };
+  std::size_t level = 0, tooHigh = m_lines.size();
+  while (tooHigh - level > 1) {
+    const std::size_t middle = level + (tooHigh - level) / 2;
+    (above(middle) >= surplus ? level : tooHigh) = middle;
+  }
+  std::size_t kept = above(level) - surplus;  // of those that would be too many
+  std::map<std::string, std::size_t, std::less<>> quotas;
+  for (const auto& [part, count] : m_counts) {
+    if (count <= level) continue;
+    const std::size_t less = std::min<std::size_t>(kept, 1);
+    kept -= less;
+    quotas[part] = count - level - less;
+  }
+  std::size_t left = surplus;
+  forgetWhere([&quotas, &left](const Line& line) {
+    if (left == 0) return false;
+    const auto quota = quotas.find(partOf(line));
+    if (quota == quotas.end() || quota->second == 0) return false;
+    --quota->second;
+    --left;
+    return true;
+  });
+  m_dropped += surplus;
+}
+
+/// Asks about every line in order. Lines that are neighbours go together, because whoever shows the
+/// list pays for each removal.
+void LogModel::forgetWhere(const std::function<bool(const Line&)>& unwanted) {
+  std::vector<std::pair<std::ptrdiff_t, std::ptrdiff_t>> runs;
+  for (std::ptrdiff_t row = 0; row < std::ssize(m_lines); ++row) {
+    if (!unwanted(m_lines[static_cast<std::size_t>(row)])) continue;
+    if (runs.empty() || runs.back().second != row) runs.emplace_back(row, row);
+    runs.back().second = row + 1;
+  }
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    forget(m_lines.begin() + run->first, m_lines.begin() + run->second);
   }
 }
 
@@ -73,11 +106,11 @@ void LogModel::forget(std::deque<Line>::iterator first, std::deque<Line>::iterat
   endRemoveRows();
 }
 
-void LogModel::divide(SourceKind of, const QString& text) {
+void LogModel::divide(const SourceKind& of, const QString& text) {
   bool any = false;
   for (Line& line : m_lines) {
-    if (line.of != of) continue;
-    line.of.reset();
+    if (line.of != &of) continue;
+    line.of = nullptr;
     any = true;
   }
   if (!any) return;
@@ -96,12 +129,12 @@ void LogModel::setTimesOfDay(bool on) {
   if (!m_lines.empty()) emit dataChanged(index(0, Time), index(rowCount() - 1, Time));
 }
 
-void LogModel::setMoment(SourceKind shown, std::optional<double> time) {
-  if (shown == m_shown && time == m_moment) return;
+void LogModel::setMoment(const SourceKind& shown, std::optional<double> time) {
+  if (&shown == m_shown && time == m_moment) return;
   std::vector<bool> before;
   before.reserve(m_lines.size());
   for (const Line& line : m_lines) before.push_back(isLater(line));
-  m_shown = shown;
+  m_shown = &shown;
   m_moment = time;
   // While the past is played that happens at every frame: only what differs is told.
   int first = -1, last = -1;
@@ -122,10 +155,10 @@ int LogModel::rowAtMoment() const {
   return -1;
 }
 
-void LogModel::strike(SourceKind of, std::uint32_t cause) {
+void LogModel::strike(const SourceKind& of, std::uint32_t cause) {
   for (int row = rowCount() - 1; row >= 0; --row) {
     Line& line = m_lines[static_cast<std::size_t>(row)];
-    if (line.of != of || line.cause != cause || std::exchange(line.undone, true)) continue;
+    if (line.of != &of || line.cause != cause || std::exchange(line.undone, true)) continue;
     emit dataChanged(index(row, 0), index(row, columns - 1), {Qt::FontRole, Qt::ForegroundRole});
   }
 }
@@ -139,11 +172,8 @@ void LogModel::clear() {
   endResetModel();
 }
 
-void LogModel::rewind(SourceKind of, double time) {
-  for (int row = rowCount() - 1; row >= 0; --row) {
-    const auto line = m_lines.begin() + row;
-    if (line->of == of && line->time > time) forget(line, line + 1);
-  }
+void LogModel::rewind(const SourceKind& of, double time) {
+  forgetWhere([&of, time](const Line& line) { return line.of == &of && line.time > time; });
 }
 
 int LogModel::rowCount(const QModelIndex& parent) const {
@@ -177,6 +207,7 @@ QVariant LogModel::data(const QModelIndex& index, int role) const {
   }
   if (role == timeRole) return line.time;
   if (role == shownRole) return line.of == m_shown;
+  if (role == recordedRole) return line.of != nullptr && !line.of->hasPresent;
   if (role == levelRole) return static_cast<int>(line.level);
   if (role == Qt::ToolTipRole && index.column() == Text) return QString::fromStdString(line.text);
   if (role == Qt::FontRole && line.undone && index.column() == Text) {
@@ -203,6 +234,10 @@ bool LogFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
   const auto level =
       static_cast<LogLevel>(sourceModel()->index(row, 0, parent).data(LogModel::levelRole).toInt());
   const bool start = level == LogLevel::Debug;
+  if (!m_recordedShown &&
+      sourceModel()->index(row, 0, parent).data(LogModel::recordedRole).toBool()) {
+    return false;
+  }
   if (start ? !m_startLinesShown : level != LogLevel::Unknown && level < m_least) return false;
   return TextFilter::filterAcceptsRow(row, parent);
 }

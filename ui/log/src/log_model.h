@@ -8,9 +8,11 @@
 #include <QAbstractTableModel>
 #include <QDateTime>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <base/log_line.h>
@@ -24,30 +26,33 @@ class LogModel : public QAbstractTableModel {
  public:
   enum Column { Time, Origin, Text, columns };
   static constexpr std::size_t maxLines = 10'000;
-  static constexpr int timeRole = Qt::UserRole;       ///< s of the source
-  static constexpr int levelRole = Qt::UserRole + 1;  ///< LogLevel
-  static constexpr int shownRole = Qt::UserRole + 2;  ///< bool: of the source that is shown
+  /// So many lines more are kept until they are removed together.
+  static constexpr std::size_t surplusLines = 500;
+  static constexpr int timeRole = Qt::UserRole;          ///< s of the source
+  static constexpr int levelRole = Qt::UserRole + 1;     ///< LogLevel
+  static constexpr int shownRole = Qt::UserRole + 2;     ///< bool: of the source that is shown
+  static constexpr int recordedRole = Qt::UserRole + 3;  ///< bool: read from a session
   using QAbstractTableModel::QAbstractTableModel;
 
   /// `clock`: the time of day at their source's second 0, where it has one.
   /// `of`: whose lines they are, for setMoment(). `events`: of the match and its referee, which
   /// share one part of the list whatever robot they are about.
   void append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock = {},
-              std::optional<SourceKind> of = {}, bool events = false);
+              const SourceKind* of = nullptr, bool events = false);
   /// The source begins again: its lines so far belong to no moment of it any more, and `text`
   /// divides them from what comes.
-  void divide(SourceKind of, const QString& text);
+  void divide(const SourceKind& of, const QString& text);
   /// The source that is shown, and the moment while it is not the newest: later lines are pale.
-  void setMoment(SourceKind shown, std::optional<double> time);
+  void setMoment(const SourceKind& shown, std::optional<double> time);
   /// The last line of the source shown that had been said at the moment; −1: none.
   int rowAtMoment() const;
   /// Times as time of day, where the lines' source has one.
   void setTimesOfDay(bool on);
   /// Lines so far that tell of this decision by hand were undone.
-  void strike(SourceKind of, std::uint32_t cause);
+  void strike(const SourceKind& of, std::uint32_t cause);
   void clear();
   /// Removes this source's lines that are later than `time` (s): the source goes on from there.
-  void rewind(SourceKind of, double time);
+  void rewind(const SourceKind& of, double time);
   /// Lines that were removed to make room.
   quint64 dropped() const { return m_dropped; }
   /// Lines of processes that are starting (LogLevel::Debug).
@@ -61,19 +66,20 @@ class LogModel : public QAbstractTableModel {
  private:
   struct Line : LogLine {
     std::optional<QDateTime> clock;
-    std::optional<SourceKind> of;
+    const SourceKind* of = nullptr;  // the rows of kinds are never gone
     bool isEvent = false, isDivider = false, undone = false;
   };
   static const std::string& partOf(const Line& line);
   void insert(std::vector<Line> lines);
   void makeRoom();
+  void forgetWhere(const std::function<bool(const Line&)>& unwanted);
   void forget(std::deque<Line>::iterator first, std::deque<Line>::iterator last);
   bool isLater(const Line& line) const {
     return m_moment && line.of == m_shown && line.time > *m_moment;
   }
   std::deque<Line> m_lines;
   std::map<std::string, std::size_t> m_counts;  // lines of each part
-  SourceKind m_shown = SourceKind::Simulate;
+  const SourceKind* m_shown = &SourceKind::Simulate;
   std::optional<double> m_moment;
   bool m_timesOfDay = true;
   quint64 m_dropped = 0;
@@ -81,7 +87,7 @@ class LogModel : public QAbstractTableModel {
 };
 
 /// Lines that contain the filter text, of a level and above. Lines of processes that are starting
-/// are folded away unless asked for.
+/// are folded away unless asked for; those of a session are shown while it is.
 class LogFilter : public TextFilter {
  public:
   using TextFilter::TextFilter;
@@ -93,13 +99,16 @@ class LogFilter : public TextFilter {
     m_startLinesShown = shown;
     invalidateFilter();
   }
+  void showRecorded(bool shown) {
+    if (std::exchange(m_recordedShown, shown) != shown) invalidateFilter();
+  }
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
 
  private:
   LogLevel m_least = LogLevel::Info;
-  bool m_startLinesShown = false;
+  bool m_startLinesShown = false, m_recordedShown = false;
 };
 
 }  // namespace pitchboard::ui

@@ -5,20 +5,95 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
 #include <array>
 #include <functional>
 
 #include <simcore/world/parameters.h>
 #include <ui/base/explanation.h>
-#include <ui/base/parameter_rows.h>
+#include <ui/base/number_box.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/scrolled_form.h>
+#include <ui/base/theme.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
+
+/// A slider and a spin box for the same number.
+class ParameterRow : public QObject {
+ public:
+  /// Adds a row to the grid. `edited` is called with the shown value after changes by the user
+  /// only.
+  ParameterRow(QGridLayout* grid, const QString& name, const QString& tip,
+               const sim::ShownParameter& shown, std::function<void(double)> edited,
+               QWidget* parent)
+      : QObject(parent),
+        m_slider(new QSlider(Qt::Horizontal, parent)),
+        m_box(new NumberBox(parent)),
+        m_edited(std::move(edited)) {
+    auto* label = new QLabel(name, parent);
+    label->setToolTip(tip);
+    label->setBuddy(m_box);
+    m_box->setDecimals(shown.decimals);
+    m_box->setRange(shown.least, shown.most);
+    m_box->setSuffix(QString::fromUtf8(shown.unit));
+    m_box->setSingleStep((shown.most - shown.least) / 50);
+    m_box->setAlignment(Qt::AlignRight);
+    m_box->setKeyboardTracking(false);
+    m_box->setButtonSymbols(QAbstractSpinBox::NoButtons);  // the slider is the quick way
+    m_box->setToolTip(tip);
+    m_box->setAccessibleName(name);
+    m_box->setMinimumWidth(scaled(parent, 108));
+    m_slider->setRange(0, steps);
+    m_slider->setMinimumWidth(scaled(parent, 60));
+    m_slider->setToolTip(tip);
+    m_slider->setFocusPolicy(Qt::NoFocus);
+    const int row = grid->rowCount();
+    grid->addWidget(label, row, 0);
+    grid->addWidget(m_slider, row, 1);
+    grid->addWidget(m_box, row, 2);
+    connect(m_slider, &QSlider::valueChanged, this, [this](int at) {
+      const double range = m_box->maximum() - m_box->minimum();
+      m_box->setValue(m_box->minimum() + range * at / steps);
+    });
+    connect(m_box, &NumberBox::valueChanged, this, [this](double value) {
+      moveSlider();
+      m_edited(value);
+    });
+  }
+
+  void setEnabled(bool enabled) {
+    m_slider->setEnabled(enabled);
+    m_box->setEnabled(enabled);
+  }
+
+  /// Shows a value without calling `edited`. Does nothing while the user edits the row.
+  void show(double value) {
+    if (m_box->hasFocus() || m_slider->isSliderDown()) return;
+    const QSignalBlocker quiet(m_box);
+    m_box->setValue(value);
+    moveSlider();
+  }
+
+ private:
+  static constexpr int steps = 200;
+  void moveSlider() {
+    const QSignalBlocker quiet(m_slider);
+    const double range = m_box->maximum() - m_box->minimum();
+    m_slider->setValue(qRound((m_box->value() - m_box->minimum()) / range * steps));
+  }
+
+  QSlider* m_slider;
+  NumberBox* m_box;
+  std::function<void(double)> m_edited;
+};
+
 namespace {
 
 using Noise = sim::NoiseParameters;
@@ -33,19 +108,16 @@ QLabel* partTitle(const QString& text, QWidget* parent) {
 
 class NoiseDock : public ScrolledForm {
  public:
-  NoiseDock(MatchController* controller, RobotSelection* selection, const SourceSwitch* source,
+  NoiseDock(MatchController* controller, RobotSelection* selection, const ShownMoment* shown,
             QWidget* parent)
-      : ScrolledForm(parent, 0),
-        m_controller(controller),
-        m_selection(selection),
-        m_source(source) {
+      : ScrolledForm(parent, 0), m_controller(controller), m_selection(selection), m_moment(shown) {
     addNoise(form(), column());
     addRobots(form(), column());
     addPhysics(form(), column());
     finishForm();
     connect(m_controller, &MatchController::scenarioChanged, this, [this] { adopt(); });
     m_follow = Beat::display().add(this, {}, [this] { follow(); });
-    connect(m_source, &FrameSource::frameReceived, this, [this] { m_follow->want(); });
+    connect(m_moment, &FrameSource::frameReceived, this, [this] { m_follow->want(); });
     connect(m_controller->edits(), &MatchEdits::robotsChanged, this, [this] { showRobots(); });
     connect(m_controller->edits(), &MatchEdits::physicsChanged, this,
             [this] { showPhysics(m_controller->edits()->physics()); });
@@ -277,8 +349,8 @@ class NoiseDock : public ScrolledForm {
   /// What the match is played with at the moment that is shown. It may have been changed elsewhere;
   /// our own changes arrive here a moment later.
   void follow() {
-    const FramePtr frame = m_source->frame();
-    if (!frame || m_source->kind() != SourceKind::Simulate) return;
+    const FramePtr frame = m_moment->frame();
+    if (!frame || !m_moment->kind().canBeEdited) return;
     const link::FrameSettings& now = *frame->settings;
     if (now.noise != m_shown.noise) {
       m_noise = now.noise;
@@ -298,7 +370,7 @@ class NoiseDock : public ScrolledForm {
 
   MatchController* m_controller;
   RobotSelection* m_selection;
-  const SourceSwitch* m_source;
+  const ShownMoment* m_moment;
   std::unique_ptr<Beat::Part> m_follow;
   QLabel* m_whose = nullptr;
   QWidget* m_robots = nullptr;
@@ -319,8 +391,8 @@ class NoiseDock : public ScrolledForm {
 }  // namespace
 
 QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection,
-                       const SourceSwitch* source, QWidget* parent) {
-  return new NoiseDock(controller, selection, source, parent);
+                       const ShownMoment* shown, QWidget* parent) {
+  return new NoiseDock(controller, selection, shown, parent);
 }
 
 }  // namespace pitchboard::ui

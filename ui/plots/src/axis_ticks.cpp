@@ -8,7 +8,7 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr int mostDecimals = 12;
+constexpr int maxDecimals = 12;
 }
 
 double niceStep(double span, int most) {
@@ -22,9 +22,23 @@ double niceStep(double span, int most) {
   return 10.0 * power;
 }
 
-NiceLimits niceLimits(double low, double high, int mostSteps) {
+double labelStep(const ValueLimits& limits, int most) {
+  const double span = limits.high - limits.low;
+  double step = niceStep(span, most);
+  if (!(span > 0.0) || !std::isfinite(span)) return step;
+  const auto multiples = [&limits](double of) {
+    return std::floor(limits.high / of + 1e-9) - std::ceil(limits.low / of - 1e-9) + 1.0;
+  };
+  // With five steps a span has two multiples wherever it begins.
+  for (int more = std::max(most, 1); multiples(step) < 2.0 && more <= most + 5; ++more) {
+    step = niceStep(span, more);
+  }
+  return step;
+}
+
+NiceLimits niceLimits(double low, double high, int maxSteps, double headroom) {
   if (!std::isfinite(low) || !std::isfinite(high) || low > high) {
-    return {{0.0, 1.0}, niceStep(1.0, mostSteps)};
+    return {{0.0, 1.0}, niceStep(1.0, maxSteps)};
   }
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= size * 1e-9) {
@@ -32,15 +46,21 @@ NiceLimits niceLimits(double low, double high, int mostSteps) {
     low -= room;
     high += room;
   }
-  const double step = niceStep(high - low, mostSteps);
-  return {{std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step}, step};
+  const double step = niceStep(high - low, maxSteps);
+  NiceLimits nice{{std::floor(low / step + 1e-9) * step, std::ceil(high / step - 1e-9) * step},
+                  step};
+  const double room = headroom * (nice.limits.high - nice.limits.low);
+  const bool below = low - nice.limits.low < room, above = nice.limits.high - high < room;
+  if (below) nice.limits.low -= room;
+  if (above) nice.limits.high += room;
+  return nice;
 }
 
 int decimalsOf(double step) {
   if (!(step > 0.0)) return 0;
   int decimals = 0;
   double scaledStep = step;
-  while (decimals < mostDecimals && std::abs(scaledStep - std::round(scaledStep)) > 1e-6) {
+  while (decimals < maxDecimals && std::abs(scaledStep - std::round(scaledStep)) > 1e-6) {
     scaledStep *= 10.0;
     ++decimals;
   }

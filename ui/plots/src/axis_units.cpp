@@ -11,7 +11,7 @@ namespace {
 using Side = CurveSpec::Side;
 
 std::optional<double> factorTo(const QString& axis, const QString& unit) {
-  if (unit.isEmpty() || axis.isEmpty() || unit == axis) return 1.0;
+  if (unit == axis) return 1.0;
   const auto factor = unitFactor(unit.toStdString(), axis.toStdString());
   const auto perSecond = QStringLiteral("/s");
   if (factor || !unit.endsWith(perSecond) || !axis.endsWith(perSecond)) return factor;
@@ -33,11 +33,18 @@ AxisPlan planAxes(std::span<const AxisRequest> curves) {
   }
   const bool rightIsTaken =
       std::ranges::find(curves, Side::Right, &AxisRequest::side) != curves.end();
+  bool hasRight = false;
   for (const AxisRequest& curve : curves) {
     AxisPlan::Place place{.right = curve.side == Side::Right};
+    if (curve.isWaiting) {
+      plan.places.push_back(place);
+      continue;
+    }
     if (curve.side == Side::ByUnit && !factorTo(plan.left, curve.unit)) {
       place.right = true;
-      if (!rightIsTaken && plan.right.isEmpty()) plan.right = curve.unit;
+      // The first one has the right axis, also without a unit.
+      if (!rightIsTaken && !hasRight) plan.right = curve.unit;
+      hasRight = true;
     }
     const auto factor = factorTo(place.right ? plan.right : plan.left, curve.unit);
     place.factor = factor.value_or(1.0);

@@ -2,7 +2,8 @@
 #pragma once
 
 // At which value axis of a chart a curve is read, by its unit: the first unit has the left axis,
-// and so has what can be converted to it; the next one that cannot has the right axis. Pure.
+// and so has what can be converted to it; the next one that cannot has the right axis. A curve
+// whose unit is unknown is never read at the axis of a unit. Pure.
 
 #include <QString>
 #include <span>
@@ -25,8 +26,9 @@ struct AxisPlan {
 };
 
 struct AxisRequest {
-  QString unit;  ///< empty: unknown, and so is whether it fits; it goes to the left
+  QString unit;  ///< empty: unknown
   CurveSpec::Side side = CurveSpec::Side::ByUnit;
+  bool isWaiting = false;  ///< for its variables: it needs no axis yet
 };
 AxisPlan planAxes(std::span<const AxisRequest> curves);
 

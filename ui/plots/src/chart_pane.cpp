@@ -128,9 +128,10 @@ void ChartPane::draw() {
   const Extent leftExtent = extent(false), rightExtent = extent(true);
   const int steps =
       std::clamp(static_cast<int>(area.height()) / scaled(this, pixelsPerValueStep), 2, 12);
-  NiceLimits nice{m_spec.values, niceStep(m_spec.values.high - m_spec.values.low, steps)};
-  const auto limitsOf = [steps](const Extent& e) {
-    return e.any ? niceLimits(e.low, e.high, steps) : niceLimits(0.0, 1.0, steps);
+  NiceLimits nice{m_spec.values, labelStep(m_spec.values, steps)};
+  const double share = std::min(scaled(this, frameRoom) / area.height(), 0.25);
+  const auto limitsOf = [steps, share](const Extent& e) {
+    return e.any ? niceLimits(e.low, e.high, steps, share) : niceLimits(0.0, 1.0, steps);
   };
   if (m_spec.autoValues) nice = limitsOf(leftExtent);
   const std::vector<AxisTick> ticks = ticksOf(timeAxis(), *m_feed, this);
@@ -140,7 +141,7 @@ void ChartPane::draw() {
                    divided ? ticks[1].time - ticks[0].time : range.end - range.begin, nice.limits,
                    nice.step, ticks.empty() ? range.begin : ticks[0].time);
   if (hasRightAxis()) {
-    NiceLimits right{m_spec.right, niceStep(m_spec.right.high - m_spec.right.low, steps)};
+    NiceLimits right{m_spec.right, labelStep(m_spec.right, steps)};
     if (m_spec.autoRight) right = limitsOf(rightExtent);
     m_chart->setRightAxis(right.limits, right.step);
   } else {

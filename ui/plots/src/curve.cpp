@@ -90,7 +90,7 @@ std::optional<double> Curve::valueAt(std::optional<double> time) const {
   const auto sample =
       time ? m_view.group->at(m_view.column, *time) : m_view.group->latest(m_view.column);
   // What is no longer drawn is no longer said either.
-  const bool old = sample && time && *time - sample->time > longestBridge;
+  const bool old = sample && time && *time - sample->time > maxBridge;
   if (!sample || old || std::isnan(sample->value)) return {};
   return sample->value;
 }

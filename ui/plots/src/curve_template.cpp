@@ -3,6 +3,8 @@
 
 #include <QRegularExpression>
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "expression.h"
 #include "plot_feed.h"
@@ -12,7 +14,8 @@ namespace {
 
 const QString eachGroup = QStringLiteral("each");
 const QString firstGroup = QStringLiteral("first");
-constexpr qsizetype mostCurves = 24;  // of one description: more cannot be told apart anyway
+const QString computedPrefix = QStringLiteral("curve/");
+constexpr qsizetype maxCurves = 24;  // of one description: more cannot be told apart anyway
 
 QString groupOf(const QString& name) {
   return name.left(name.indexOf(QLatin1Char('/')));
@@ -28,23 +31,61 @@ QStringList variablesOf(const CurveSpec& curve) {
   return expression ? expression->variables() : QStringList();
 }
 
-/// As it was typed, with the names that its variables have now.
-QString presentExpression(const QString& typed, const PlotFeed& feed) {
-  static const QRegularExpression identifier(QStringLiteral("^[A-Za-z_]\\w*$"));
+/// The expression as it was typed, with other names of its variables. All change at the same time:
+/// two may exchange their names.
+QString renamedExpression(const QString& typed,
+                          const std::function<QString(const QString&)>& nameOf) {
+  static const QRegularExpression plain(QStringLiteral("^[A-Za-z_]\\w*/[A-Za-z_][\\w.]*$"));
+  static const QRegularExpression token(
+      QStringLiteral("\\{\\s*([^{}]*?)\\s*\\}|(?<![\\w.])([A-Za-z_][\\w.]*)"));
   const auto parsed = PlotExpression::parse(typed);
-  QString shown = typed;
+  std::map<QString, QString> names;  // as they can be typed
   for (const QString& name : parsed ? parsed->variables() : QStringList()) {
-    const QString present = feed.presentName(name);
+    const QString present = nameOf(name);
     if (present == name) continue;
     const QString group = groupOf(present), column = present.mid(group.size() + 1);
-    const QString now = identifier.match(group).hasMatch() ? group + QLatin1Char('.') + column
-                                                           : QStringLiteral("{%1}").arg(present);
-    const QString braced = QRegularExpression::escape(name);
-    const QString plain = QRegularExpression::escape(QString(name).replace('/', '.'));
-    shown.replace(QRegularExpression(QStringLiteral("\\{\\s*%1\\s*\\}").arg(braced)), now);
-    shown.replace(QRegularExpression(QStringLiteral("(?<![\\w.{])%1(?![\\w.])").arg(plain)), now);
+    const QString now = plain.match(present).hasMatch() ? group + QLatin1Char('.') + column
+                                                        : QStringLiteral("{%1}").arg(present);
+    names[name] = names[QString(name).replace(QLatin1Char('/'), QLatin1Char('.'))] = now;
   }
-  return shown;
+  QString shown;
+  qsizetype at = 0;
+  for (auto found = token.globalMatch(typed); found.hasNext();) {
+    const QRegularExpressionMatch match = found.next();
+    const auto known = names.find(match.captured(1) + match.captured(2));
+    if (known == names.end()) continue;
+    shown += typed.mid(at, match.capturedStart() - at) + known->second;
+    at = match.capturedEnd();
+  }
+  return shown + typed.mid(at);
+}
+
+/// A curve after groups and computed curves have got other names.
+CurveSpec renamedCurve(const CurveSpec& curve, const GroupNames& groups, const GroupNames& curves) {
+  const auto nameOf = [&](const QString& name) {
+    const QString group = groupOf(name), rest = name.mid(group.size());
+    if (group + QLatin1Char('/') == computedPrefix) {
+      const auto other = curves.find(rest.mid(1));
+      return other == curves.end() ? name : computedPrefix + other->second;
+    }
+    const auto now = groups.find(group);
+    return now == groups.end() ? name : now->second + rest;
+  };
+  CurveSpec made = curve;
+  for (QString& input : made.inputs) input = nameOf(input);
+  if (!curve.expression.isEmpty()) made.expression = renamedExpression(curve.expression, nameOf);
+  for (QString& hidden : made.hidden) {
+    if (const auto other = curves.find(hidden); other != curves.end()) {
+      hidden = other->second;
+      continue;
+    }
+    // One curve of a description for every robot.
+    const auto now = std::ranges::find_if(groups, [&hidden](const auto& group) {
+      return hidden.endsWith(QLatin1Char(' ') + group.first);
+    });
+    if (now != groups.end()) hidden = hidden.chopped(now->first.size()) + now->second;
+  }
+  return made;
 }
 
 CurveSpec ofGroup(const CurveSpec& curve, const QString& group, const PlotFeed& feed) {
@@ -91,13 +132,14 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
     CurveSpec named = curve;
     for (QString& input : named.inputs) input = feed.presentName(input);
     if (curve.kind == CurveKind::Expression && curve.title.isEmpty()) {
-      named.title = presentExpression(curve.expression, feed);
+      named.title = renamedExpression(
+          curve.expression, [&feed](const QString& name) { return feed.presentName(name); });
     }
     return {named};
   }
   QStringList groups;
   if (every)
-    groups = feed.groupsWith(columns).mid(0, mostCurves);
+    groups = feed.groupsWith(columns).mid(0, maxCurves);
   else if (const QString first = feed.firstGroup(columns); !first.isEmpty())
     groups << first;
   QList<CurveSpec> all;
@@ -107,6 +149,32 @@ QList<CurveSpec> curvesOf(const CurveSpec& curve, PlotFeed& feed) {
   }
   if (all.isEmpty()) all << curve;
   return all;
+}
+
+PlotLayout renamedGroups(const PlotLayout& layout, const GroupNames& groups) {
+  const auto each = [](PlotLayout& of, const auto& change) {
+    for (PageSpec& page : of.pages) {
+      for (PaneSpec& pane : page.panes) {
+        for (CurveSpec& curve : pane.curves) change(curve);
+      }
+    }
+  };
+  // Curves without a title are named after their variables, and others may be made of them.
+  GroupNames curves;
+  constexpr int maxSteps = 8;
+  for (int step = 0; step < maxSteps; ++step) {
+    GroupNames now;
+    PlotLayout before = layout;
+    each(before, [&](const CurveSpec& curve) {
+      const QString name = curveName(curve), other = curveName(renamedCurve(curve, groups, curves));
+      if (name != other) now.emplace(name, other);
+    });
+    if (now == curves) break;
+    curves = std::move(now);
+  }
+  PlotLayout made = layout;
+  each(made, [&](CurveSpec& curve) { curve = renamedCurve(curve, groups, curves); });
+  return made;
 }
 
 CurveSpec forEachGroup(const CurveSpec& curve) {

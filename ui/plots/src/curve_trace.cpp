@@ -50,7 +50,7 @@ void takeSamples(CurveTrace& trace, const ColumnView& view, TimeRange range) {
   trace.samples.insert(trace.samples.end(), inside.begin(), inside.end());
   std::vector<Sample> after;
   const double next = std::nextafter(range.end, std::numeric_limits<double>::infinity());
-  view.group->samples(view.column, {next, range.end + longestBridge}, after, 1);
+  view.group->samples(view.column, {next, range.end + maxBridge}, after, 1);
   if (!after.empty()) trace.samples.push_back(after.front());
   for (const Sample& sample : inside) note(trace, sample.value);
   if (!trace.any) {
@@ -64,11 +64,11 @@ void takeSamples(CurveTrace& trace, const ColumnView& view, TimeRange range) {
 namespace {
 
 /// Most of the distances between neighbours are this long; 0 where there are no two.
-double usualDistance(const std::vector<Sample>& samples) {
+double defaultDistance(const std::vector<Sample>& samples) {
   std::vector<double> distances;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double distance = samples[i].time - samples[i - 1].time;
-    if (distance > 0.0 && distance <= longestBridge) distances.push_back(distance);
+    if (distance > 0.0 && distance <= maxBridge) distances.push_back(distance);
   }
   if (distances.empty()) return 0.0;
   const auto middle = distances.begin() + std::ssize(distances) / 2;
@@ -92,11 +92,12 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns, double 
   // While rows are being read there is an envelope, which must not look like a curve.
   if (samples <= count && view.group->hasEveryRow(range)) {
     takeSamples(trace, view, range);
-    trace.held = !view.isCoded() && usualDistance(trace.samples) >= slowSamples;
-    if (trace.held) trace.heldUntil = std::min(now, trace.samples.back().time + longestBridge);
+    trace.held = !view.isCoded() && defaultDistance(trace.samples) >= slowSamples;
+    if (trace.held) trace.heldUntil = std::min(now, trace.samples.back().time + maxBridge);
     return trace;
   }
   trace.exact = false;
+  trace.columnWidth = width;
   trace.coarse = !view.group->hasEveryRow(range);
   trace.reading = trace.coarse && view.group->isReading(range);
   trace.columns.reserve(count);
@@ -119,20 +120,35 @@ CurveTrace traceOf(const ColumnView& view, TimeRange range, int columns, double 
 
 namespace {
 
-/// Round what the columns cover, at least a pixel high: forth along the top, back below.
+/// Whether the line is interrupted between two neighbouring samples or columns, which are
+/// `distance` (s) apart. Columns are as wide as a pixel, so the silence between the samples in them
+/// is certain to be as long as their distance less one width, however much time a pixel stands for.
+bool isSilence(const CurveTrace& trace, double distance) {
+  return distance - trace.columnWidth > maxBridge;
+}
+
+/// Round what the columns cover, at least a pixel wide and high: forth along the top, back below.
 std::vector<QPolygonF> outlines(const CurveTrace& trace, const TimeAxis& time,
                                 const ValueScale& values) {
   std::vector<QPolygonF> all;
   QPolygonF top, bottom;
+  const double half = (time.pixel(trace.columnWidth) - time.pixel(0.0)) / 2;
   const auto end = [&] {
+    if (top.isEmpty()) return;
+    // A column covers all of its pixel, also the first and the last one.
+    for (QPolygonF* edge : {&top, &bottom}) {
+      const QPointF first = edge->first(), last = edge->last();
+      edge->prepend(QPointF(first.x() - half, first.y()));
+      *edge << QPointF(last.x() + half, last.y());
+    }
     std::reverse(bottom.begin(), bottom.end());
-    if (!top.isEmpty()) all.push_back(top + bottom);
+    all.push_back(top + bottom);
     top.clear();
     bottom.clear();
   };
   double previous = nan;
   for (const CurveTrace::Column& column : trace.columns) {
-    if (!std::isfinite(column.min) || column.time - previous > longestBridge) end();
+    if (!std::isfinite(column.min) || isSilence(trace, column.time - previous)) end();
     previous = column.time;
     if (!std::isfinite(column.min)) continue;
     const double x = std::clamp(time.pixel(column.time), -farAway, farAway);
@@ -164,7 +180,7 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
   if (trace.held) steps = true;
   if (trace.exact) {
     for (const Sample& sample : trace.samples) {
-      if (!std::isfinite(sample.value) || sample.time - previous > longestBridge) end();
+      if (!std::isfinite(sample.value) || isSilence(trace, sample.time - previous)) end();
       previous = sample.time;
       if (!std::isfinite(sample.value)) continue;
       const double x = time.pixel(sample.time);
@@ -178,11 +194,8 @@ std::vector<QPolygonF> polylines(const CurveTrace& trace, const TimeAxis& time,
     return lines;
   }
   if (trace.coarse) return outlines(trace, time, values);
-  const double pixel = (time.shown.end - time.shown.begin) / std::max(time.width, 1.0);
   for (const CurveTrace::Column& column : trace.columns) {
-    if (!std::isfinite(column.min) || column.time - previous > std::max(longestBridge, 3 * pixel)) {
-      end();
-    }
+    if (!std::isfinite(column.min) || isSilence(trace, column.time - previous)) end();
     previous = column.time;
     if (!std::isfinite(column.min)) continue;
     if (std::isnan(column.first)) end();

@@ -7,6 +7,7 @@
 #include <QPolygonF>
 #include <vector>
 
+#include <telemetry/series/series_summary.h>
 #include <ui/base/time_axis.h>
 #include <ui/plots/plot_layout.h>
 
@@ -32,14 +33,15 @@ struct ValueScale {
 
 /// A curve is not drawn across a longer silence than this; it is the time after which a robot
 /// counts as timed out.
-inline constexpr double longestBridge = 10.0;  // s
+inline constexpr double maxBridge = telemetry::SummaryPart::maxSilence;  // s
 
 struct CurveTrace {
   /// One per pixel column; times are the columns' middles.
   struct Column {
     double time, first, min, max, last;
   };
-  bool exact = true;  ///< `samples` are all there are; else `columns`
+  bool exact = true;         ///< `samples` are all there are; else `columns`
+  double columnWidth = 0.0;  ///< s; 0 for samples
   /// The rows of this range are not in memory: `columns` are an envelope of many rows each.
   bool coarse = false;
   bool reading = false;  ///< and they are on their way

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include <telemetry/expression/expression_unit.h>
 #include <telemetry/series/derived_curve.h>
 #include <ui/base/workers.h>
 
@@ -22,7 +23,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t rowsAtOnce = 1 << 16;
 constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
 // An input without samples for longer is not waited for; its last value holds.
-constexpr double longestWait = 1.0;  // s
+constexpr double maxWait = 1.0;  // s
 constexpr std::size_t tailRows = 64;
 
 /// One row of inputs to one value; the first input's time is the row's.
@@ -68,19 +69,43 @@ Step makeStep(const CurveSpec& spec, const std::string& unit) {
   return {};
 }
 
-std::string unitOf(const CurveSpec& spec, const std::string& input) {
+/// "1" for a code, which has none; empty if it is unknown.
+std::string unitOf(const ColumnView& view) {
+  return view.isCoded() ? "1" : view.info().unit;
+}
+
+/// The unit of a derived curve; empty if it is unknown, or if there is none.
+std::string unitOf(const CurveSpec& spec, const QStringList& inputs,
+                   const std::vector<ColumnView>& views) {
   if (!spec.unit.isEmpty()) return spec.unit.toStdString();
+  const std::string input = unitOf(views[0]);
+  std::string unit;
   switch (spec.kind) {
     case CurveKind::Derivative:
-      return input.empty() ? "1/s" : input + "/s";
+      unit = telemetry::timesSeconds(input, -1);
+      break;
     case CurveKind::Integral:
-      return input.empty() ? "s" : input + "·s";
+      unit = telemetry::timesSeconds(input, 1);
+      break;
     case CurveKind::Conversion:
-    case CurveKind::Expression:
-      return {};
+      break;
+    case CurveKind::Difference:
+      if (unitOf(views[1]) == input) unit = input;
+      break;
+    case CurveKind::Expression: {
+      const auto unitOfInput = [&](const std::string& name) -> std::optional<std::string> {
+        const qsizetype index = inputs.indexOf(QString::fromStdString(name));
+        if (index < 0) return std::nullopt;
+        const std::string known = unitOf(views[static_cast<std::size_t>(index)]);
+        return known.empty() ? std::nullopt : std::optional(known);
+      };
+      unit = telemetry::unitOfExpression(spec.expression.toStdString(), unitOfInput).value_or("");
+      break;
+    }
     default:
-      return input;
+      unit = input;
   }
+  return unit == "1" ? std::string() : unit;
 }
 
 }  // namespace
@@ -195,8 +220,8 @@ bool DerivedSeries::takeStretch(const std::vector<ColumnView>& views, telemetry:
   }
   // A derivative needs the row before, an average the rows of its window.
   const double lead = m_work->spec.kind == CurveKind::MovingAverage
-                          ? std::max(m_work->spec.parameter, longestWait)
-                          : longestWait;
+                          ? std::max(m_work->spec.parameter, maxWait)
+                          : maxWait;
   const double span = shown.end - shown.begin;
   const auto has = [&](double more) {
     const telemetry::TimeRange range{shown.begin - lead - more, shown.end + more};
@@ -219,13 +244,12 @@ void DerivedSeries::start(std::vector<ColumnView> views, double until) {
   const auto& work = m_next ? m_next : m_work;
   if (work->running) return;
   if (!work->step) {
-    const std::string unit = views[0].info().unit;
-    work->step = makeStep(work->spec, unit);
+    work->step = makeStep(work->spec, views[0].info().unit);
     telemetry::GroupInfo info;
     info.name = "derived";
     telemetry::ColumnInfo column;
     column.name = "value";
-    column.unit = unitOf(work->spec, unit);
+    column.unit = unitOf(work->spec, work->inputs, views);
     info.columns.push_back(column);
     work->group = work->store.addGroup(info);
   }
@@ -278,7 +302,7 @@ void DerivedSeries::update(const Lookup& find, quint64 generation, telemetry::Ti
   }
   if (m_work->running) return;
   double until = newest(0);
-  const double longAgo = until - longestWait;
+  const double longAgo = until - maxWait;
   for (std::size_t i = 1; i < views.size(); ++i) until = std::min(until, newest(i));
   until = std::max(until, longAgo);
   m_work->behind = until > m_work->done;

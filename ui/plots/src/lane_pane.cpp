@@ -56,7 +56,7 @@ std::vector<LaneStretch> laneStretches(const ColumnView& view, telemetry::TimeRa
     const telemetry::SeriesBucket& bucket = buckets[i];
     if (bucket.samples == 0) continue;
     const double begin = range.begin + static_cast<double>(i) * width;
-    if (begin - last > longestBridge) {
+    if (begin - last > maxBridge) {
       extend(all, heldSince, last, held, false);
       held = unknown;
       heldSince = begin;

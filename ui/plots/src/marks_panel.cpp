@@ -11,24 +11,22 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include <ui/base/elide_text.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "marks_model.h"
 #include "plot_pane.h"
 
 namespace pitchboard::ui {
 namespace {
-constexpr int mostEventsNamed = 3;
-constexpr int nameWidth = 188, numberWidth = 54, labelWidth = 84;  // px of the mock
+constexpr int maxEventsNamed = 3;
+constexpr int nameWidth = 188, narrowestName = 100, numberWidth = 48;  // px of the mock
 constexpr int widestText = 124;
-constexpr int wordColumns[] = {MarksModel::AtA, MarksModel::AtB};
 
 QString spanText(bool whole) {
   return whole ? QStringLiteral("Whole session") : QStringLiteral("Between A and B");
@@ -42,11 +40,11 @@ class MarksDelegate : public QStyledItemDelegate {
  protected:
   void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
     QStyledItemDelegate::initStyleOption(option, index);
-    option->textElideMode = Qt::ElideMiddle;
-    if (index.column() == MarksModel::Name || !option->rect.isValid()) return;
+    if (!option->rect.isValid()) return;
     constexpr int margin = 4;
+    const auto elide = index.column() == MarksModel::Name ? elideName : elideText;
     option->text =
-        elideText(QFontMetricsF(option->font), option->text, option->rect.width() - 2 * margin);
+        elide(QFontMetricsF(option->font), option->text, option->rect.width() - 2 * margin);
   }
 };
 }  // namespace
@@ -62,7 +60,7 @@ QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, doub
   QStringList named;
   std::ptrdiff_t marked = 0;
   for (auto event = first; event != last; ++event) {
-    if (!link::isMarked(*event) || ++marked > mostEventsNamed) continue;
+    if (!link::isMarked(*event) || ++marked > maxEventsNamed) continue;
     named << QStringLiteral("%1 at %2")
                  .arg(QString::fromStdString(sentenceOf(*event)), feed.timeText(event->time, 2));
   }
@@ -73,10 +71,9 @@ QString eventsBetween(const std::deque<link::MatchEvent>& events, double a, doub
                   : QStringLiteral("Between A and B: %1.").arg(all);
 }
 
-MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
+MarksPanel::MarksPanel(PlotFeed* feed, QWidget* parent)
     : QWidget(parent),
       m_feed(feed),
-      m_timeline(timeline),
       m_model(new MarksModel(this)),
       m_span(new QToolButton(this)),
       m_times(new QLabel(this)),
@@ -95,7 +92,6 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   m_table->horizontalHeader()->setStretchLastSection(false);
   m_table->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   m_table->horizontalHeader()->setMinimumSectionSize(scaled(this, 30));
-  m_table->horizontalHeader()->setSectionResizeMode(MarksModel::Name, QHeaderView::Stretch);
   forgetTextWidths();
   m_times->setTextFormat(Qt::RichText);
   m_difference->setFont(themeFont(TypeRole::Secondary, true));
@@ -138,10 +134,29 @@ MarksPanel::MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent)
   hide();
 }
 
+// All columns side by side.
 QSize MarksPanel::sizeHint() const {
-  // All columns side by side.
-  constexpr int numbers = MarksModel::columns - 1 - static_cast<int>(std::size(wordColumns));
-  return {scaled(this, nameWidth + numbers * numberWidth + 2 * labelWidth), scaled(this, 120)};
+  int width =
+      std::clamp(cellWidth(MarksModel::Name), scaled(this, narrowestName), scaled(this, nameWidth));
+  for (int column = MarksModel::AtA; column < MarksModel::columns; ++column) {
+    width += m_table->columnWidth(column);
+  }
+  return {width + 2 * m_table->frameWidth(), scaled(this, 120)};
+}
+
+int MarksPanel::cellWidth(int column) const {
+  QStyleOptionViewItem option;
+  option.initFrom(m_table);
+  option.widget = m_table;
+  int widest = 0;
+  for (int row = 0; row < m_model->rowCount(); ++row) {
+    const QModelIndex cell = m_model->index(row, column);
+    const int wide = m_table->itemDelegate()->sizeHint(option, cell).width();
+    const QString text = cell.data().toString();
+    const bool isLabel = column != MarksModel::Name && !text.isEmpty() && text.front().isLetter();
+    widest = std::max(widest, isLabel ? std::min(wide, scaled(this, widestText)) : wide);
+  }
+  return widest;
 }
 
 void MarksPanel::forgetTextWidths() {
@@ -153,20 +168,26 @@ void MarksPanel::forgetTextWidths() {
 // Numbers have all the room that they need, labels of codes less. Columns do not become narrower
 // again while a mark is dragged.
 void MarksPanel::fitTextColumns() {
-  QStyleOptionViewItem option;
-  option.initFrom(m_table);
-  option.widget = m_table;
   for (int column = MarksModel::AtA; column < MarksModel::columns; ++column) {
-    int wanted = m_table->columnWidth(column);
-    for (int row = 0; row < m_model->rowCount(); ++row) {
-      const QModelIndex cell = m_model->index(row, column);
-      const int wide = m_table->itemDelegate()->sizeHint(option, cell).width();
-      const QString text = cell.data().toString();
-      const bool isText = !text.isEmpty() && text.front().isLetter();
-      wanted = std::max(wanted, isText ? std::min(wide, scaled(this, widestText)) : wide);
-    }
+    const int wanted = std::max(m_table->columnWidth(column), cellWidth(column));
     if (wanted != m_table->columnWidth(column)) m_table->setColumnWidth(column, wanted);
   }
+  fitNameColumn();
+}
+
+// Names have what the numbers leave, and never so little that curves cannot be told apart: then the
+// table scrolls.
+void MarksPanel::fitNameColumn() {
+  int room = m_table->viewport()->width();
+  for (int column = MarksModel::AtA; column < MarksModel::columns; ++column) {
+    room -= m_table->columnWidth(column);
+  }
+  m_table->setColumnWidth(MarksModel::Name, std::max(room, scaled(this, narrowestName)));
+}
+
+void MarksPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitNameColumn();
 }
 
 void MarksPanel::setWhole(bool on) {
@@ -184,14 +205,15 @@ void MarksPanel::copyTable() const {
 }
 
 void MarksPanel::refresh(const QList<PlotPane*>& panes) {
-  LinkedTime* time = m_feed->time();
+  const LinkedTime* time = m_feed->time();
+  const ShownMoment& shown = *time->shown();
   if (isHidden()) forgetTextWidths();
-  setVisible(time->hasMarks());
+  setVisible(shown.hasMarks());
   m_panes.clear();
   for (PlotPane* pane : panes) m_panes << pane;
-  if (!time->hasMarks()) return;
-  const double a = *time->mark(TimeMark::A);
-  const double b = *time->mark(TimeMark::B);
+  if (!shown.hasMarks()) return;
+  const double a = *shown.mark(TimeMark::A);
+  const double b = *shown.mark(TimeMark::B);
   m_times->setText(QStringLiteral("<b>A</b> %1 &nbsp;&nbsp; <b>B</b> %2")
                        .arg(m_feed->timeText(a, 3), m_feed->timeText(b, 3)));
   m_difference->setText(QStringLiteral("Δt %1 s").arg(
@@ -205,9 +227,7 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   }
   m_model->setRows(std::move(rows));
   fitTextColumns();
-  m_events->setText(m_timeline != nullptr
-                        ? eventsBetween(m_timeline->events()->events(), a, b, *m_feed)
-                        : QString());
+  m_events->setText(eventsBetween(shown.events()->events(), a, b, *m_feed));
 }
 
 }  // namespace pitchboard::ui

@@ -18,13 +18,11 @@ namespace pitchboard::ui {
 
 class MarksModel;
 class PlotPane;
-class Timeline;
 
 class MarksPanel : public QWidget {
   Q_OBJECT
  public:
-  /// Without a timeline nothing is said of events.
-  MarksPanel(PlotFeed* feed, Timeline* timeline, QWidget* parent);
+  MarksPanel(PlotFeed* feed, QWidget* parent);
 
   MarksModel* model() const { return m_model; }
   /// What the curves of these plots are at and between the marks. Hidden without marks.
@@ -32,12 +30,17 @@ class MarksPanel : public QWidget {
   void copyTable() const;
   QSize sizeHint() const override;
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
+  /// What the widest cell of a column needs.
+  int cellWidth(int column) const;
+  void fitNameColumn();
   void forgetTextWidths();
   void fitTextColumns();
 
   PlotFeed* m_feed;
-  Timeline* m_timeline;
   MarksModel* m_model;
   void setWhole(bool on);
 

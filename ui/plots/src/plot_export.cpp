@@ -29,11 +29,6 @@ tl::unexpected<Error> cannotWrite(const QFileDevice& file) {
       file.fileName().toStdString());
 }
 
-Result<void> writeBytes(const QString& path, const QByteArray& bytes) {
-  return writeFile(path.toStdString(), {bytes.data(), std::size_t(bytes.size())},
-                   IfExists::Replace);
-}
-
 QString csv(const QString& text) {
   return QString::fromStdString(csvField(text.toStdString()));
 }
@@ -100,13 +95,17 @@ QImage plotPicture(PlotPage& page, double ratio) {
   return image;
 }
 
-Result<void> savePlotPng(PlotPage& page, const QString& path) {
-  const QByteArray bytes = pictureBytes(plotPicture(page, pngRatio));
-  if (bytes.isEmpty()) return failure(ErrorCode::SystemError, "Could not render the picture.");
-  return writeBytes(path, bytes);
+QByteArray plotPng(PlotPage& page) {
+  return pictureBytes(plotPicture(page, pngRatio));
 }
 
-Result<void> savePlotSvg(PlotPage& page, const QString& path) {
+Result<void> savePlotPicture(const QByteArray& bytes, const QString& path) {
+  if (bytes.isEmpty()) return failure(ErrorCode::SystemError, "Could not render the picture.");
+  return writeFile(path.toStdString(), {bytes.data(), std::size_t(bytes.size())},
+                   IfExists::Replace);
+}
+
+QByteArray plotSvg(PlotPage& page) {
   QWidget* widget = page.picture();
   QByteArray bytes;
   QBuffer buffer(&bytes);
@@ -122,7 +121,7 @@ Result<void> savePlotSvg(PlotPage& page, const QString& path) {
   widget->render(&painter);
   page.setForPicture(false);
   painter.end();
-  return writeBytes(path, withKnownFonts(bytes));
+  return withKnownFonts(bytes);
 }
 
 void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeRange range) {
@@ -150,10 +149,11 @@ void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeR
       line += ',';
       if (reader.time() != time) continue;
       const double value = reader.take();
+      // Unknown is an empty cell, as in every table.
       if (std::isfinite(value))
         line += QByteArray::number(value, 'g', 17);
-      else
-        line += std::isnan(value) ? "nan" : value > 0 ? "inf" : "-inf";
+      else if (!std::isnan(value))
+        line += value > 0 ? "inf" : "-inf";
     }
     if (device.write(line + "\r\n") < 0) return;
   }

@@ -18,10 +18,12 @@ class PlotPane;
 
 /// The plots of a page as on the screen, in `ratio` pixels for one of theirs.
 QImage plotPicture(PlotPage& page, double ratio);
-/// PNG with twice the pixels of the screen; SVG with lines, and text in fonts that every browser
-/// has.
-Result<void> savePlotPng(PlotPage& page, const QString& path);
-Result<void> savePlotSvg(PlotPage& page, const QString& path);
+/// The same as the bytes of a file: PNG with twice the pixels of the screen; SVG with lines, and
+/// text in fonts that every browser has. Empty on failure.
+QByteArray plotPng(PlotPage& page);
+QByteArray plotSvg(PlotPage& page);
+/// Fails where there are no bytes, too.
+Result<void> savePlotPicture(const QByteArray& bytes, const QString& path);
 /// Every sample in the range: a first line of names, then time in s and one column for each curve;
 /// a cell is empty where a curve has no sample at that time. RFC 4180, decimal point.
 Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange range,

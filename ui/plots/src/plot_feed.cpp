@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <tuple>
 #include <utility>
 
 #include <robotlink/frame/match_frame.h>
 #include <telemetry/wire/meanings.h>
+#include <ui/base/robot_text.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/linked_time.h>
 
@@ -25,24 +27,6 @@ bool isColumn(const std::string& saved, const telemetry::ColumnInfo& column) {
   return column.name == saved || column.name == telemetry::presentName(saved);
 }
 
-/// `GROUP/COLUMN`: also by another name of the robot, and by the column's name in version 0.8.
-std::optional<telemetry::SeriesId> idOf(const telemetry::SeriesStore& rows, const QString& name) {
-  const qsizetype slash = name.indexOf(QLatin1Char('/'));
-  if (slash <= 0) return {};
-  std::string group = name.left(slash).toStdString();
-  const std::string column = name.mid(slash + 1).toStdString();
-  if (const auto id = rows.find(group, column)) return id;
-  if (!rows.findGroup(group)) {
-    std::vector<std::string> groups;
-    for (telemetry::GroupId id = 0; id < rows.groups(); ++id) {
-      if (const auto view = rows.view(id)) groups.push_back(view->info().name);
-    }
-    group = link::robotNamed(group, groups).value_or(group);
-  }
-  const auto id = rows.find(group, column);
-  return id ? id : rows.find(group, telemetry::presentName(column));
-}
-
 }  // namespace
 
 PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
@@ -53,9 +37,9 @@ PlotFeed::PlotFeed(FrameSource* source, LinkedTime* time, QObject* parent)
   };
   m_refresh = Beat::display().add(nullptr, mostOften, look, most);
   connect(source, &FrameSource::frameReceived, this, &PlotFeed::refreshSoon);
+  connect(source, &FrameSource::rowsAppended, this, &PlotFeed::refreshSoon);
   connect(source, &FrameSource::rowsCame, this, look);
   connect(source, &FrameSource::restarted, this, &PlotFeed::forget);
-  connect(source, &FrameSource::rewound, time, &LinkedTime::rewind);
 }
 
 PlotFeed::~PlotFeed() = default;
@@ -83,6 +67,7 @@ void PlotFeed::forget() {
   m_found.clear();
   m_views.clear();
   m_store.reset();
+  m_groupNames.clear();
   m_first.clear();
   m_firstAsked.clear();
   ++m_generation;
@@ -97,12 +82,14 @@ void PlotFeed::refresh() {
   if (store != m_store) {
     m_store = store;
     m_storeRevision = revision;
+    m_groupNames = store ? store->groupNames() : std::vector<std::string>();
     m_found.clear();
     ++m_generation;
     ++m_looks;
   } else if (revision != m_storeRevision) {
     m_storeRevision = revision;
     ++m_looks;
+    noteNames();
     lookAgain();
   }
   orderRobots();
@@ -115,7 +102,7 @@ void PlotFeed::refresh() {
     const bool asked = std::exchange(curve.updated, false);
     m_namedWorking = m_namedWorking || (asked && curve.rows && curve.rows->isWorking());
   }
-  m_time->setData(m_store ? m_store->range() : std::nullopt);
+  m_time->refresh();
   emit refreshed();
 }
 
@@ -146,11 +133,11 @@ std::optional<bool> PlotFeed::isMoving(const QString& group, const QStringList& 
   const auto all = m_store->range();
   if (!all) return false;
   // Of a recording what comes next, of a source that goes on what came last.
-  const auto moment = m_time->moment();
+  const auto moment = m_time->shown()->chosenTime();
   const telemetry::TimeRange looked{moment.value_or(all->end - lately),
                                     moment ? *moment + lately : all->end};
   for (const QString& column : columns) {
-    const auto id = idOf(*m_store, group + QLatin1Char('/') + column);
+    const auto id = findVariable(*m_store, group + QLatin1Char('/') + column);
     const auto view = id ? m_store->view(id->group) : nullptr;
     if (!view || view->info().columns[id->column].kind != telemetry::ColumnKind::Number) continue;
     if (!view->hasEveryRow(looked) && view->isReading(looked)) return std::nullopt;
@@ -168,13 +155,32 @@ QString PlotFeed::firstGroup(const QStringList& columns) {
     const qsizetype place = m_robots.indexOf(group);
     return place < 0 ? m_robots.size() : place;
   };
-  std::ranges::stable_sort(groups, {}, rank);
+  // Ours before others (of a simulated match the first team), keepers last, and whoever is at the
+  // ball first.
+  const FramePtr frame = m_source->frame();
+  const auto choice = [&](const QString& group) {
+    const qsizetype place = rank(group);
+    const bool isTheirs = place >= m_ours;
+    if (frame) {
+      for (const link::RobotFrame& robot : frame->robots) {
+        if (robotName(robot) != group) continue;
+        const double far = frame->ballKnown ? distance(robot.pose.position, frame->snapshot.ball)
+                           : robot.ball     ? robot.ball->distance
+                                            : std::numeric_limits<double>::infinity();
+        return std::tuple(isTheirs, robot.key.team, robot.behaviour == keeperBehaviour, far, place);
+      }
+    }
+    return std::tuple(isTheirs, std::numeric_limits<int>::max(), false,
+                      std::numeric_limits<double>::infinity(), place);
+  };
+  std::ranges::stable_sort(groups, {}, choice);
   // Guests give way to the first robot of ours, even if they were received before it.
   if (rank(groups.front()) < m_ours) {
     groups.removeIf([&](const QString& group) { return rank(group) >= m_ours; });
   }
   if (groups.contains(m_first)) return m_first;
-  // Whoever has not been read yet may be the one: its place does not depend on who comes first.
+  // A robot that was not read yet counts as moving, so that the choice does not depend on the order
+  // in which robots are read.
   const auto moving = std::ranges::find_if(
       groups, [&](const QString& group) { return isMoving(group, columns).value_or(true); });
   if (moving == groups.end() || !isMoving(*moving, columns)) {
@@ -199,12 +205,35 @@ void PlotFeed::findFirst() {
   }
 }
 
+// A curve stays that of its robot, whatever the robot is called from now on.
+void PlotFeed::noteNames() {
+  if (!m_store) return;
+  const std::vector<std::string> now = m_store->groupNames();
+  GroupNames renamed;
+  const std::size_t known = m_groupNames.size();
+  m_groupNames.resize(now.size());
+  for (std::size_t id = 0; id < now.size(); ++id) {
+    std::string& before = m_groupNames[id];
+    // While two have one name, nobody can say whose a curve of this name is.
+    if (now[id] == before || std::ranges::count(now, now[id]) > 1) continue;
+    if (id < known && !before.empty() && !now[id].empty()) {
+      renamed[QString::fromStdString(before)] = QString::fromStdString(now[id]);
+    }
+    before = now[id];
+  }
+  if (renamed.empty()) return;
+  if (const auto first = renamed.find(m_first); first != renamed.end()) m_first = first->second;
+  m_found.clear();
+  ++m_generation;
+  emit groupsRenamed(renamed);
+}
+
 // A robot that is received for the first time says nothing new of the others: their derived curves
 // stay.
 void PlotFeed::lookAgain() {
   bool changed = false;
   std::erase_if(m_found, [&](const auto& known) {
-    const bool other = idOf(*m_store, known.first) != known.second;
+    const bool other = findVariable(*m_store, known.first) != known.second;
     changed = changed || other;
     return other;
   });
@@ -266,7 +295,7 @@ QStringList PlotFeed::groupsWith(const QStringList& columns) const {
 }
 
 QString PlotFeed::presentName(const QString& name) const {
-  const auto id = m_store ? idOf(*m_store, name) : std::nullopt;
+  const auto id = m_store ? findVariable(*m_store, name) : std::nullopt;
   const auto view = id ? m_store->view(id->group) : nullptr;
   if (!view) return name;
   return QString::fromStdString(view->info().name + "/" + view->info().columns[id->column].name);
@@ -277,7 +306,7 @@ ColumnView PlotFeed::find(const QString& name) {
   if (name.startsWith(curvePrefix)) return named(name.mid(curvePrefix.size()));
   auto known = m_found.find(name);
   if (known == m_found.end()) {
-    const auto id = idOf(*m_store, name);
+    const auto id = findVariable(*m_store, name);
     if (!id) {
       m_missed = true;
       return {};
@@ -300,7 +329,7 @@ void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, d
 }
 
 ColumnView PlotFeed::compared(const QString& name) const {
-  const auto id = m_compared ? idOf(*m_compared, name) : std::nullopt;
+  const auto id = m_compared ? findVariable(*m_compared, name) : std::nullopt;
   if (!id) return {};
   return {m_compared->view(id->group), id->column};
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What plots read: one consistent look at a source's rows, renewed with its frames while somebody
-// watches. UI thread only.
+// Reads a source's rows for the plots: a consistent snapshot, which is refreshed with each frame
+// while plots are visible. UI thread only.
 
 #include <QDateTime>
 #include <QObject>
@@ -21,7 +21,7 @@ namespace pitchboard::ui {
 class DerivedSeries;
 class LinkedTime;
 
-/// A column as it was at the last refresh. Cheap to copy; any thread may read it.
+/// A column as of the last refresh. Cheap to copy; any thread may read it.
 struct ColumnView {
   std::shared_ptr<const telemetry::GroupView> group;
   std::uint32_t column = 0;
@@ -30,6 +30,9 @@ struct ColumnView {
   const telemetry::ColumnInfo& info() const { return group->info().columns[column]; }
   bool isCoded() const { return info().kind != telemetry::ColumnKind::Number; }
 };
+
+/// Old and new names of groups that were renamed at the same time.
+using GroupNames = std::map<QString, QString>;
 
 class PlotFeed : public QObject {
   Q_OBJECT
@@ -40,74 +43,79 @@ class PlotFeed : public QObject {
 
   FrameSource* source() const { return m_source; }
   LinkedTime* time() const { return m_time; }
-  /// `GROUP/COLUMN`, or `curve/NAME`; nothing when there is no such variable now.
+  /// Finds `GROUP/COLUMN` or `curve/NAME`; empty if there is no such variable at the moment.
   ColumnView find(const QString& name);
-  /// Computed curves that others may take as `curve/NAME`, by name.
+  /// Sets the computed curves that other curves can use as `curve/NAME`, by name.
   void setNamedCurves(const std::map<QString, CurveSpec>& curves);
-  /// Groups that have all of these columns, in the source's order.
+  /// Returns the groups that have all of these columns, in the source's order.
   QStringList groupsWith(const QStringList& columns) const;
-  /// `GROUP/COLUMN` with the name that the group has now; itself where there is none.
+  /// Returns `GROUP/COLUMN` with the present name of the group; `name` itself if there is no such
+  /// variable.
   QString presentName(const QString& name) const;
-  /// The group that `first` stands for: of the robots that have these columns one whose value
-  /// moves, ours before others and keepers last. Once one has moved it stays that one until it is
-  /// gone. Empty where there is none.
+  /// Returns the group that `first` stands for: a robot with these columns whose value changes, our
+  /// robots before others, keepers last, and of the rest the one at the ball. Once chosen it stays
+  /// until the robot is gone. Empty if no robot has the columns.
   QString firstGroup(const QStringList& columns);
-  /// Every variable there is, `GROUP/COLUMN`.
+  /// Returns all variables as `GROUP/COLUMN`.
   QStringList names() const;
-  /// Wall clock at second 0, where the source has one (Live): then times are written as time of
+  /// The wall-clock time of second 0 if the source has one (Live); times are then shown as times of
   /// day.
   const std::optional<QDateTime>& clock() const { return m_clock; }
   void setClock(const std::optional<QDateTime>& clock) { m_clock = clock; }
-  /// "05:03.250", or the time of day; s of the source.
+  /// Formats seconds of the source as "05:03.250" or as a time of day.
   QString timeText(double time, int decimals) const;
-  /// Grows when variables came or went: what find() said before is void.
+  /// Increases when variables were added or removed; results of find() are then out of date.
   quint64 generation() const { return m_generation; }
-  /// Grows when there are other groups or columns, or `first` is another robot: what groupsWith()
-  /// said before is void.
+  /// Increases when groups or columns changed, or when `first` became another robot; results of
+  /// groupsWith() are then out of date.
   quint64 looks() const { return m_looks; }
 
-  /// Rows of a second session, whose second 0 is at `offset` (s); null: none. Until `from` (s) they
-  /// are those of what is shown.
+  /// Sets the rows of a second session, whose second 0 is at `offset` (s); null for none. Until
+  /// `from` (s) both sessions have the same rows.
   void setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
                    const QString& caption, double from = -std::numeric_limits<double>::infinity());
-  /// The same variable there, at the times of there; nothing when it has none.
+  /// Returns the same variable in the second session, at that session's times; empty if it has
+  /// none.
   ColumnView compared(const QString& name) const;
   bool hasCompared() const { return m_compared != nullptr; }
-  /// Grows whenever rows of a session that is larger than memory have been read: the same range now
-  /// looks different.
+  /// Increases when rows of a session that does not fit into memory have been read, so that the
+  /// same range has to be drawn again.
   quint64 rowsRead() const { return m_rowsRead; }
-  /// Whether curves that others are made of were being computed at the last refresh.
+  /// Returns whether input curves were still being computed at the last refresh.
   bool isWorking() const { return m_namedWorking; }
-  /// Grows when another session is compared; 0: none ever was.
+  /// Increases when another session is compared; 0 if none ever was.
   quint64 comparedGeneration() const { return m_comparedGeneration; }
   double comparedOffset() const { return m_comparedOffset; }
   double comparedFrom() const { return m_comparedFrom; }
   const QString& comparedCaption() const { return m_comparedCaption; }
-  /// They are a future of the same match, which it has left.
+  /// Returns whether the second session is an abandoned future of the same match.
   bool comparesFuture() const { return m_comparedFrom > -std::numeric_limits<double>::infinity(); }
 
-  /// Refreshes by itself while on; plots that cannot be seen cost nothing.
+  /// Switches automatic refreshing on or off; hidden plots cost nothing.
   void setRunning(bool on);
-  /// Takes a new look now.
+  /// Refreshes now.
   void refresh();
-  /// Takes one in a beat soon, while it runs.
+  /// Refreshes in one of the next beats, if running.
   void refreshSoon();
-  /// How much time a pixel of the plots stands for (s): what moves less than that between two looks
-  /// need not be looked at.
+  /// Sets how many seconds a pixel of the plots covers. Plots need not be refreshed more often than
+  /// they move by a pixel.
   void setTimeOfPixel(double seconds);
 
  signals:
   /// There may be something new to draw.
   void refreshed();
+  /// Groups of the source were renamed; plotted curves still belong to them.
+  void groupsRenamed(const pitchboard::ui::GroupNames& names);
 
  private:
   ColumnView named(const QString& name);
   void forget();
   void lookAgain();
+  void noteNames();
   void orderRobots();
   void findFirst();
-  /// A number of these columns changes about the moment that is shown.
-  /// Nothing while its rows are being read.
+  /// Returns whether a number in these columns changes around the shown time; empty while rows are
+  /// being read.
   std::optional<bool> isMoving(const QString& group, const QStringList& columns) const;
 
   FrameSource* m_source;
@@ -116,14 +124,15 @@ class PlotFeed : public QObject {
   std::unique_ptr<Beat::Part> m_refresh;
   std::shared_ptr<const telemetry::SeriesStore> m_store;
   quint64 m_storeRevision = 0;
+  std::vector<std::string> m_groupNames;  // by GroupId, as curves name them
   quint64 m_generation = 1;
   quint64 m_looks = 1;
   quint64 m_rowsRead = 0;
   QStringList m_robots;  // ours before others, keepers last
   qsizetype m_ours = 0;  // how many of them are ours
-  QString m_first;       // what `first` stands for; empty while none of them has moved
+  QString m_first;       // what `first` stands for; empty while no value has changed
   std::vector<QStringList> m_firstAsked;  // columns, while it is empty
-  bool m_missed = false;                  // somebody waits for a variable that is not there
+  bool m_missed = false;                  // a curve waits for a missing variable
   std::optional<QDateTime> m_clock;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
   quint64 m_comparedGeneration = 0;
@@ -133,9 +142,9 @@ class PlotFeed : public QObject {
   std::map<QString, telemetry::SeriesId> m_found;
   struct Named {
     CurveSpec spec;
-    std::unique_ptr<DerivedSeries> rows;  // null: a plain variable under another name
+    std::unique_ptr<DerivedSeries> rows;  // null: a plain variable with a title
     bool updated = false;                 // since the last refresh
-    bool inWork = false;                  // a curve that is made of itself has no rows
+    bool inWork = false;                  // a curve that refers to itself has no rows
   };
   std::map<QString, Named> m_named;
   bool m_namedAsked = false, m_namedWorking = false;

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 3> sides{"unit", "left", "right"};
 constexpr std::array<std::string_view, 3> paneKinds{"chart", "lane", "xy"};
 constexpr const char* versionKey = "pitchboardPlots";
 constexpr int formatVersion = 1;
-constexpr std::size_t mostLayoutBytes = 4 << 20;  // a layout has some kilobytes
+constexpr std::size_t maxLayoutBytes = 4 << 20;  // a layout has some kilobytes
 constexpr std::size_t mostOfAnything =
     200;  // pages, plots, curves: a file with more is not one of ours
 
@@ -33,7 +33,7 @@ Enum readChoice(const JsonObject& object, std::string_view key,
 }
 
 QString textOf(const JsonObject& object, std::string_view key) {
-  return QString::fromStdString(object.text(key, {}, mostLayoutBytes));
+  return QString::fromStdString(object.text(key, {}, maxLayoutBytes));
 }
 
 int wholeOf(const JsonObject& object, std::string_view key, int fallback, int least, int most) {
@@ -172,7 +172,7 @@ QJsonObject toJson(const PlotLayout& layout) {
 Result<PlotLayout> layoutFromText(std::string_view text, std::string_view source) {
   JsonReport report(source);
   PlotLayout layout;
-  if (const auto root = parseJson(text, report, mostLayoutBytes)) {
+  if (const auto root = parseJson(text, report, maxLayoutBytes)) {
     const JsonObject object(report, *root, "");
     if (!object.find(versionKey)) {
       report.fail(root->line, {}, "this is not a layout of plots");

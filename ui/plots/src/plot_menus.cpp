@@ -4,7 +4,6 @@
 #include <QApplication>
 #include <QClipboard>
 #include <QColorDialog>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QMenu>
@@ -13,12 +12,16 @@
 #include <functional>
 
 #include <telemetry/series/derived_curve.h>
+#include <ui/base/action_reason.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/theme.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/shown_moment.h>
 
 #include "chart_pane.h"
 #include "curve_dialog.h"
+#include "curve_extreme.h"
 #include "curve_template.h"
 #include "plot_export.h"
 #include "plot_page.h"
@@ -27,10 +30,11 @@
 namespace pitchboard::ui {
 namespace {
 
-/// Asks where to, puts the suffix there, writes, and says what went wrong.
+/// Asks where to, puts the suffix there, writes, and says what went wrong. Time goes on while it
+/// asks: what is written was taken before.
 void saveAs(PlotsDock* dock, const QString& title, const QString& name, const QString& filter,
             const std::function<Result<void>(const QString&)>& write) {
-  QString path = QFileDialog::getSaveFileName(dock, title, name, filter);
+  QString path = askToSave(dock, title, name, filter);
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QLatin1Char('.') + QFileInfo(name).suffix();
   if (const auto written = write(path))
@@ -43,17 +47,22 @@ void addExports(QMenu* menu, PlotsDock* dock) {
   menu->addAction(QStringLiteral("Export picture (PNG)…"), dock, [dock] {
     saveAs(dock, QStringLiteral("Export plots as picture"), QStringLiteral("plots.png"),
            QStringLiteral("Pictures (*.png)"),
-           [dock](const QString& path) { return savePlotPng(*dock->currentPage(), path); });
+           [picture = plotPng(*dock->currentPage())](const QString& path) {
+             return savePlotPicture(picture, path);
+           });
   });
   menu->addAction(QStringLiteral("Export drawing (SVG)…"), dock, [dock] {
     saveAs(dock, QStringLiteral("Export plots as drawing"), QStringLiteral("plots.svg"),
            QStringLiteral("Drawings (*.svg)"),
-           [dock](const QString& path) { return savePlotSvg(*dock->currentPage(), path); });
+           [drawing = plotSvg(*dock->currentPage())](const QString& path) {
+             return savePlotPicture(drawing, path);
+           });
   });
   menu->addAction(QStringLiteral("Export visible data (CSV)…"), dock, [dock] {
     saveAs(dock, QStringLiteral("Export visible data"), QStringLiteral("plots.csv"),
-           QStringLiteral("Tables (*.csv)"), [dock](const QString& path) {
-             return savePlotCsv(dock->currentPage()->panes(), dock->time()->range(), path);
+           QStringLiteral("Tables (*.csv)"),
+           [dock, range = dock->time()->range()](const QString& path) {
+             return savePlotCsv(dock->currentPage()->panes(), range, path);
            });
   });
   menu->addSeparator();
@@ -97,13 +106,14 @@ void addPresets(QMenu* menu, PlotsDock* dock) {
       remove->addAction(name, dock,
                         [dock, name] { PlotPresets(dock->context().settings).remove(name); });
     }
-    open->setEnabled(!open->isEmpty());
-    remove->setEnabled(!remove->isEmpty());
+    const QString none =
+        open->isEmpty() ? QStringLiteral("No layout has been saved yet") : QString();
+    enableUnless(*open->menuAction(), none);
+    enableUnless(*remove->menuAction(), none);
   });
   menu->addAction(QStringLiteral("Import layout…"), dock, [dock] {
-    const QString path =
-        QFileDialog::getOpenFileName(dock, QStringLiteral("Import plot layout"), {},
-                                     QStringLiteral("Layouts (*.json);;All files (*)"));
+    const QString path = askToOpen(dock, QStringLiteral("Import plot layout"),
+                                   QStringLiteral("Layouts (*.json);;All files (*)"));
     if (!path.isEmpty()) openLayout(dock, PlotPresets::readFile(path));
   });
   menu->addAction(QStringLiteral("Export layout…"), dock, [dock] {
@@ -279,6 +289,37 @@ void addKinds(QMenu* menu, PlotPage* page, PlotPane* pane) {
     offer(QStringLiteral("Show as curves"), spec, PaneKind::Chart);
 }
 
+/// Shows the moment at which the curve is highest or lowest, in the selected range or in all of its
+/// past. Rows that are not in memory are read first.
+void goToExtreme(PlotsDock* dock, const ColumnView& view, Extreme which) {
+  ShownMoment* shown = dock->context().shown;
+  const auto range = shown->selection() ? shown->selection() : view.group->range();
+  if (!range) return;
+  const auto time = extremeTime(*view.group, view.column, *range, which);
+  if (!time) return;
+  shown->seek(*time);
+  const telemetry::TimeRange around{*time - 1.0, *time + 1.0};
+  if (view.group->hasEveryRow(around) || !view.group->isReading(around)) return;
+  QObject::connect(
+      dock->feed(), &PlotFeed::refreshed, dock,
+      [dock, view, which] { goToExtreme(dock, view, which); },
+      static_cast<Qt::ConnectionType>(Qt::QueuedConnection | Qt::SingleShotConnection));
+}
+
+void addExtremes(QMenu* menu, PlotsDock* dock, const PlotPane* pane, int index) {
+  const Curve& curve = pane->curves()[static_cast<std::size_t>(index)];
+  if (pane->kind() != PaneKind::Chart) return;
+  for (const Extreme which : {Extreme::Maximum, Extreme::Minimum}) {
+    QAction* go = menu->addAction(
+        which == Extreme::Maximum ? QStringLiteral("Go to maximum")
+                                  : QStringLiteral("Go to minimum"),
+        dock, [dock, view = curve.view(), which] { goToExtreme(dock, view, which); });
+    go->setToolTip(QStringLiteral(
+        "Shows the moment at which it is reached: in the selected range, else in the whole past"));
+    enableUnless(*go, curve.isWaiting() ? QStringLiteral("There are no values yet") : QString());
+  }
+}
+
 void askForAxes(PlotsDock* dock, PlotPane* pane) {
   const auto* chart = qobject_cast<ChartPane*>(pane);
   AxesDialog dialog(pane->spec(), chart != nullptr ? chart->valueScale().limits : ValueLimits{},
@@ -337,6 +378,7 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
     }
     addForEach(into, pane, index);
     addDerived(into, page, pane, index);
+    addExtremes(into, dock, pane, index);
     into->addAction(themedIcon(QStringLiteral("edit-delete")), QStringLiteral("Remove curve"), page,
                     [page, pane, index] {
                       if (pane->spec().curves.size() == 1)
@@ -364,7 +406,7 @@ void showPlotMenu(PlotsDock* dock, PlotPage* page, PlotPane* pane, int curve, co
     if (pane->isOverTime()) {
       const double moment = pane->timeAxis().time(pane->surface()->mapFromGlobal(at).x());
       menu->addAction(QStringLiteral("Show the field at this moment"), dock,
-                      [dock, moment] { dock->time()->requestMoment(moment); });
+                      [dock, moment] { dock->context().shown->seek(moment); });
     }
     menu->addSeparator();
     addExports(menu, dock);

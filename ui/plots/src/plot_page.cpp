@@ -31,7 +31,7 @@ PaneSpec paneOf(PaneKind kind, const CurveSpec& curve) {
 }
 }  // namespace
 
-PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent)
+PlotPage::PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent)
     : QWidget(parent),
       m_feed(feed),
       m_name(spec.name),
@@ -40,7 +40,7 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
       m_split(new QSplitter(Qt::Horizontal, this)),
       m_scroll(new QScrollArea(m_stack)),
       m_empty(new QLabel(m_stack)),
-      m_marks(new MarksPanel(feed, timeline, this)) {
+      m_marks(new MarksPanel(feed, this)) {
   setObjectName(QStringLiteral("plotPage"));
   setAcceptDrops(true);
   const auto axis = [this] { return timeAxis(); };
@@ -83,7 +83,7 @@ PlotPage::PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWi
   row->addWidget(m_split);
   m_stack->installEventFilter(this);
   connect(m_panes, &QSplitter::splitterMoved, this, &PlotPage::notifyChanged);
-  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
+  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::playheadMoved}) {
     connect(feed->time(), moved, this, [this] {
       if (!isVisible()) return;
       for (PlotPane* pane : panes()) {
@@ -189,13 +189,16 @@ void PlotPage::removeAll() {
   notifyChanged();
 }
 
-// The table gets the width that its columns want, as long as the plots keep half.
+// The table gets the width that its columns want, as long as the curves keep most of theirs. Where
+// it must scroll anyway they keep more.
 void PlotPage::showMarks() {
   const bool before = m_marks->isVisibleTo(this);
   m_marks->refresh(panes());
   if (before || !m_marks->isVisibleTo(this)) return;
-  const int wanted = std::min(m_marks->sizeHint().width(), width() / 2);
-  m_split->setSizes({width() - wanted, wanted});
+  const int room = width() - m_split->handleWidth();
+  int wanted = m_marks->sizeHint().width();
+  if (wanted > room * 2 / 5) wanted = room * 3 / 10;
+  m_split->setSizes({room - wanted, wanted});
 }
 
 void PlotPage::showPointed() {
@@ -272,8 +275,8 @@ void PlotPage::align() {
   bool overTime = false;
   // A new width can change the numbers, and with them the width that they need. The result does not
   // depend on the width before.
-  constexpr int mostPasses = 3;
-  for (int pass = 0; pass < mostPasses; ++pass) {
+  constexpr int maxPasses = 3;
+  for (int pass = 0; pass < maxPasses; ++pass) {
     int left = scaled(this, plainLeft);
     int right = scaled(this, PlotPane::rightMargin);
     for (PlotPane* pane : panes()) {

@@ -22,14 +22,12 @@ class MarkHeads;
 class MarksPanel;
 class TimeLines;
 class TimeRuler;
-class Timeline;
 struct DropHint;
 
 class PlotPage : public QWidget {
   Q_OBJECT
  public:
-  /// `timeline` knows the events; it may be null.
-  PlotPage(PlotFeed* feed, Timeline* timeline, const PageSpec& spec, QWidget* parent = nullptr);
+  PlotPage(PlotFeed* feed, const PageSpec& spec, QWidget* parent = nullptr);
 
   PageSpec spec() const;
   void setName(const QString& name);

@@ -92,6 +92,11 @@ void PlotPane::removeCurve(int index) {
   edited();
 }
 
+void PlotPane::setDescriptions(const QList<CurveSpec>& curves) {
+  m_descriptions = curves;
+  expand();
+}
+
 const CurveSpec& PlotPane::description(int curve) const {
   return m_descriptions[m_describedBy[static_cast<std::size_t>(curve)]];
 }
@@ -121,7 +126,8 @@ void PlotPane::expand() {
 
 std::vector<AxisRequest> PlotPane::unitsOfCurves() const {
   std::vector<AxisRequest> all;
-  for (const Curve& curve : m_curves) all.push_back({curve.unit(), curve.spec().side});
+  for (const Curve& curve : m_curves)
+    all.push_back({curve.unit(), curve.spec().side, curve.isWaiting()});
   return all;
 }
 
@@ -208,7 +214,9 @@ LegendEntry PlotPane::legendEntry(std::size_t index) const {
   entry.side = side.join(QLatin1Char(' '));
   entry.odd = chart && place.otherUnit;
   if (entry.odd) {
-    entry.tip += QStringLiteral("\nNeither axis has the unit %1").arg(curve.unit());
+    entry.tip += curve.unit().isEmpty()
+                     ? QStringLiteral("\nIts unit is unknown, and both axes have one")
+                     : QStringLiteral("\nNeither axis has the unit %1").arg(curve.unit());
   }
   return entry;
 }

@@ -41,6 +41,8 @@ class PlotPane : public QWidget {
   void addCurve(CurveSpec curve);
   void setCurve(int index, const CurveSpec& curve);
   void removeCurve(int index);
+  /// The same curves under other names; says nothing of it.
+  void setDescriptions(const QList<CurveSpec>& curves);
   bool hasCurve(const CurveSpec& curve) const;
   /// A variable of this unit has a value axis here, or can have one.
   bool canTake(const QString& unit) const;

@@ -22,34 +22,54 @@
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
+#include <ui/plots/plot_layout.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/edit.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "curve_template.h"
-#include "layout_edit.h"
 #include "plot_feed.h"
 #include "plot_page.h"
 
 namespace pitchboard::ui {
 namespace {
 
+/// Tabs, plots in each, curves in each of them.
+struct Shape {
+  QString text;
+  int curves = 0;
+};
+
+Shape shapeOf(const PlotLayout& layout) {
+  Shape shape;
+  for (const PageSpec& page : layout.pages) {
+    shape.text += QLatin1Char('|');
+    for (const PaneSpec& pane : page.panes) {
+      shape.text += QStringLiteral(" %1").arg(pane.curves.size());
+      shape.curves += static_cast<int>(pane.curves.size());
+    }
+  }
+  return shape;
+}
+
+/// The change has happened already; `put` shows a layout. Changes of look and limits within a
+/// second are one; what adds or removes is one for itself.
+Edit layoutEdit(const PlotLayout& before, const PlotLayout& after,
+                const std::function<void(const PlotLayout&)>& put) {
+  const Shape was = shapeOf(before), is = shapeOf(after);
+  return {is.curves > was.curves   ? QStringLiteral("Add to the plots")
+          : is.curves < was.curves ? QStringLiteral("Remove from the plots")
+                                   : QStringLiteral("Change the plots"),
+          [put, after] { put(after); }, [put, before] { put(before); },
+          was.text == is.text ? is.text : QString()};
+}
+
 constexpr int saveMilliseconds = 1000;
 const QString noticeTopic = QStringLiteral("plots");
 const QString layoutKey = QStringLiteral("plots/layout");
-
-/// How much is shown while following is kept for each kind of source.
-QString windowKey(SourceKind kind) {
-  return kind == SourceKind::Simulate ? QStringLiteral("plots/window")
-         : kind == SourceKind::Live   ? QStringLiteral("plots/liveWindow")
-                                      : QStringLiteral("plots/replayWindow");
-}
-double firstWindow(SourceKind kind) {
-  return kind == SourceKind::Simulate ? LinkedTime::defaultWindow : LinkedTime::longWindow;
-}
 
 }  // namespace
 
@@ -57,7 +77,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
     : QWidget(parent),
       m_context(context),
       m_time(context.time),
-      m_feed(new PlotFeed(context.source, context.time, this)),
+      m_feed(new PlotFeed(context.shown, context.time, this)),
       m_pageRow(new QWidget(this)),
       m_tabs(new QTabBar(m_pageRow)),
       m_stack(new QStackedWidget(this)),
@@ -96,29 +116,21 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   });
   connect(m_tabs, &QTabBar::tabMoved, this, &PlotsDock::changed);
   connect(m_feed, &PlotFeed::refreshed, this, &PlotsDock::takeRows);
-  connect(context.source, &SourceSwitch::newestChanged, m_feed, &PlotFeed::refreshSoon);
-  for (const auto moved : {&LinkedTime::rangeChanged, &LinkedTime::marksChanged}) {
-    connect(context.time, moved, this, &PlotsDock::scheduleDraw);
-  }
+  connect(m_feed, &PlotFeed::groupsRenamed, this, &PlotsDock::renameGroups);
+  connect(context.shown, &ShownMoment::newestChanged, m_feed, &PlotFeed::refreshSoon);
+  connect(context.time, &LinkedTime::rangeChanged, this, &PlotsDock::scheduleDraw);
+  connect(context.shown, &ShownMoment::marksChanged, this, &PlotsDock::scheduleDraw);
   if (context.plots != nullptr) {
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
   }
-  connect(context.source, &SourceSwitch::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
-  connect(context.source, &SourceSwitch::changed, this, &PlotsDock::takeWindow);
-  connect(context.time, &LinkedTime::marksMoved, this, [this](const TimeMarks& before) {
+  connect(context.shown, &ShownMoment::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
+  connect(context.shown, &ShownMoment::sourceChosen, this, &PlotsDock::takeWindow);
+  connect(context.shown, &ShownMoment::marksMoved, this, [this](const TimeMarks& before) {
     pushTimeEdit(
         QStringLiteral("Move marks A and B"), QStringLiteral("marks"),
-        [now = m_time->marks()](LinkedTime* time) { time->setMarks(now); },
-        [before](LinkedTime* time) { time->setMarks(before); });
+        [now = m_context.shown->marks()](LinkedTime* time) { time->shown()->setMarks(now); },
+        [before](LinkedTime* time) { time->shown()->setMarks(before); });
   });
-  if (context.timeline != nullptr) {
-    connect(context.time, &LinkedTime::momentRequested, context.timeline, &Timeline::seek);
-    connect(context.time, &LinkedTime::nowRequested, context.timeline, &Timeline::goLive);
-    connect(context.timeline, &Timeline::moved, this, &PlotsDock::follow);
-    connect(context.timeline, &Timeline::lookingBackChanged, this, &PlotsDock::follow);
-    connect(context.timeline, &Timeline::sourceChanged, this, &PlotsDock::follow);
-    follow();
-  }
   if (context.compared != nullptr) {
     connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
     connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
@@ -152,13 +164,14 @@ void PlotsDock::restore() {
 
 /// The window of the source that is shown now, as it was left.
 void PlotsDock::takeWindow() {
-  m_windowOf = m_context.source->kind();
+  m_windowOf = &m_context.shown->kind();
   const QSettings* settings = m_context.settings;
   const auto known = m_windows.find(m_windowOf);
   const double saved = known != m_windows.end() ? known->second
-                       : settings != nullptr    ? settings->value(windowKey(m_windowOf)).toDouble()
-                                                : 0.0;
-  m_context.time->setWindow(saved > 0.0 ? saved : firstWindow(m_windowOf));
+                       : settings != nullptr
+                           ? settings->value(QLatin1String(m_windowOf->windowKey)).toDouble()
+                           : 0.0;
+  m_context.time->setWindow(saved > 0.0 ? saved : m_windowOf->window);
 }
 
 /// A change of what the layout does not hold; it has happened already.
@@ -172,14 +185,7 @@ void PlotsDock::pushTimeEdit(const QString& text, const QString& key,
       if (m_time) change(m_time);
     };
   };
-  m_undo->push(new EditCommand({text, run(redo), run(undo), key, true}));
-}
-
-/// Plots are at the moment that field and cards show.
-void PlotsDock::follow() {
-  const Timeline& timeline = *m_context.timeline;
-  const bool past = timeline.isLookingBack() || timeline.isRecording();
-  m_context.time->setMoment(past ? std::optional(timeline.shownTime()) : std::nullopt);
+  m_undo->push(new EditCommand({text, run(redo), run(undo), key}));
 }
 
 PlotsDock::~PlotsDock() {
@@ -206,7 +212,7 @@ QList<PlotPage*> PlotsDock::pages() const {
 }
 
 PlotPage* PlotsDock::addPage(const PageSpec& spec) {
-  auto* page = new PlotPage(m_feed, m_context.timeline, spec, m_stack);
+  auto* page = new PlotPage(m_feed, spec, m_stack);
   page->setBoxTool(m_box->isChecked());
   m_stack->addWidget(page);
   int index = 0;
@@ -288,12 +294,37 @@ void PlotsDock::changed() {
   }
   m_feed->setNamedCurves(named);
   if (now == m_known) return;
-  m_undo->push(new EditCommand(layoutEdit(m_known, now, [this](const PlotLayout& layout) {
+  const auto putLater = [this, renamed = m_renamings.size()](PlotLayout layout) {
+    for (std::size_t i = renamed; i < m_renamings.size(); ++i) {
+      layout = renamedGroups(layout, m_renamings[i]);
+    }
     put(layout);
     m_known = layoutSpec();
     changed();
-  })));
+  };
+  m_undo->push(new EditCommand(layoutEdit(m_known, now, putLater)));
   m_known = std::move(now);
+}
+
+void PlotsDock::renameGroups(const std::map<QString, QString>& names) {
+  constexpr std::size_t maxRenamings = 1000;
+  if (m_undo->count() == 0 || m_renamings.size() == maxRenamings) {
+    m_undo->clear();
+    m_renamings.clear();
+  } else {
+    m_renamings.push_back(names);
+  }
+  const PlotLayout before = layoutSpec(), now = renamedGroups(before, names);
+  if (now == before) return;
+  const QList<PlotPage*> all = pages();
+  for (qsizetype page = 0; page < all.size(); ++page) {
+    const QList<PlotPane*> panes = all[page]->panes();
+    for (qsizetype pane = 0; pane < panes.size(); ++pane) {
+      panes[pane]->setDescriptions(now.pages[page].panes[pane].curves);
+    }
+  }
+  m_known = layoutSpec();
+  changed();
 }
 
 void PlotsDock::put(const PlotLayout& layout) {
@@ -316,7 +347,7 @@ void PlotsDock::save() {
   m_context.settings->setValue(layoutKey,
                                QJsonDocument(toJson(layoutSpec())).toJson(QJsonDocument::Compact));
   for (const auto& [kind, seconds] : m_windows) {
-    m_context.settings->setValue(windowKey(kind), seconds);
+    m_context.settings->setValue(QLatin1String(kind->windowKey), seconds);
   }
 }
 
@@ -383,7 +414,7 @@ void PlotsDock::scheduleDraw() {
 
 void PlotsDock::drawNow() {
   m_draw->settle();
-  if (m_context.timeline != nullptr) m_feed->setClock(m_context.timeline->clock());
+  m_feed->setClock(m_context.shown->clock());
   if (PlotPage* page = currentPage(); page != nullptr && isVisible()) page->refresh();
   const telemetry::TimeRange shown = m_context.time->range();
   m_feed->setTimeOfPixel((shown.end - shown.begin) / std::max(width(), 1));
@@ -455,10 +486,10 @@ QToolBar* PlotsDock::makeTools() {
   m_marks->setToolTip(
       QStringLiteral("Marks A and B: differences and statistics between two moments"));
   m_marks->setCheckable(true);
-  m_marks->setChecked(time->hasMarks());
+  m_marks->setChecked(m_context.shown->hasMarks());
   connect(m_marks, &QAction::triggered, time, &LinkedTime::showMarks);
-  connect(time, &LinkedTime::marksChanged, m_marks,
-          [this, time] { m_marks->setChecked(time->hasMarks()); });
+  connect(m_context.shown, &ShownMoment::marksChanged, m_marks,
+          [this] { m_marks->setChecked(m_context.shown->hasMarks()); });
 
   m_box = new QAction(themedIcon(QStringLiteral("select-rectangular")),
                       QStringLiteral("Zoom into a box"), this);

@@ -56,9 +56,9 @@ bool TimeGestures::eventFilter(QObject* watched, QEvent* event) {
       m_drag = Drag::None;
       // Its first half was a click, and is taken back.
       if (m_before)
-        m_time->requestMoment(*m_before);
+        m_time->shown()->seek(*m_before);
       else
-        m_time->requestNow();
+        m_time->shown()->goLive();
       m_time->fitAll();
       emit fitRequested();
       return true;
@@ -90,7 +90,7 @@ void TimeGestures::wheel(QWheelEvent* event) {
 std::optional<TimeMark> TimeGestures::markAt(const QPointF& position) const {
   const TimeAxis axis = m_axis();
   for (const TimeMark mark : {TimeMark::B, TimeMark::A}) {
-    const auto at = m_time->mark(mark);
+    const auto at = m_time->shown()->mark(mark);
     if (at && std::abs(axis.pixel(*at) - position.x()) <= scaled(m_surface, markReach)) return mark;
   }
   return {};
@@ -158,7 +158,7 @@ void TimeGestures::move(QMouseEvent* event) {
       break;
     }
     case Drag::Mark:
-      m_time->setMark(m_mark, time);
+      m_time->shown()->setMark(m_mark, time);
       break;
   }
   m_last = at;
@@ -174,8 +174,8 @@ void TimeGestures::release(QMouseEvent* event) {
     const TimeAxis axis = m_axis();
     const double x = m_from.x();
     if (m_dragged || event->button() != Qt::LeftButton || x < axis.left || x > axis.right()) return;
-    m_before = m_time->moment();
-    m_time->requestMoment(axis.time(x));
+    m_before = m_time->shown()->chosenTime();
+    m_time->shown()->seek(axis.time(x));
     return;
   }
   if (drag != Drag::Box) return;

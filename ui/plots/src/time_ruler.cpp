@@ -26,7 +26,7 @@ std::vector<AxisTick> ticksOf(const TimeAxis& axis, const PlotFeed& feed, const 
 TimeRuler::TimeRuler(const PlotFeed* feed, std::function<TimeAxis()> axis, QWidget* parent)
     : QWidget(parent), m_feed(feed), m_axis(std::move(axis)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::momentChanged}) {
+  for (const auto moved : {&LinkedTime::cursorChanged, &LinkedTime::playheadMoved}) {
     connect(feed->time(), moved, this, qOverload<>(&QWidget::update));
   }
 }
@@ -85,7 +85,7 @@ std::vector<TimeRuler::Tag> TimeRuler::tags() const {
     if (box.right() > width()) box.moveRight(width());
     all.push_back({box, text, isMoment});
   };
-  add(m_feed->time()->moment(), true);
+  add(m_feed->time()->shown()->chosenTime(), true);
   add(m_feed->time()->cursor(), false);
   return all;
 }
@@ -93,9 +93,9 @@ std::vector<TimeRuler::Tag> TimeRuler::tags() const {
 MarkHeads::MarkHeads(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* parent)
     : QWidget(parent), m_time(time), m_axis(std::move(axis)) {
   setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  setVisible(time->hasMarks());
-  connect(time, &LinkedTime::marksChanged, this, [this] {
-    setVisible(m_time->hasMarks());
+  setVisible(time->shown()->hasMarks());
+  connect(time->shown(), &ShownMoment::marksChanged, this, [this] {
+    setVisible(m_time->shown()->hasMarks());
     update();
   });
   connect(time, &LinkedTime::rangeChanged, this, [this] { update(); });
@@ -106,7 +106,7 @@ QSize MarkHeads::sizeHint() const {
 }
 
 QRectF MarkHeads::headRect(TimeMark mark) const {
-  const auto at = m_time->mark(mark);
+  const auto at = m_time->shown()->mark(mark);
   if (!at) return {};
   const double x = m_axis().pixel(*at);
   const double wide = scaled(this, headWidth);
@@ -143,8 +143,8 @@ void MarkHeads::mousePressEvent(QMouseEvent* event) {
 void MarkHeads::mouseMoveEvent(QMouseEvent* event) {
   if (!m_dragged) return;
   const TimeAxis axis = m_axis();
-  m_time->setMark(*m_dragged,
-                  axis.time(std::clamp(event->position().x(), axis.left, axis.right())));
+  m_time->shown()->setMark(*m_dragged,
+                           axis.time(std::clamp(event->position().x(), axis.left, axis.right())));
 }
 
 void MarkHeads::mouseReleaseEvent(QMouseEvent*) {
@@ -156,8 +156,9 @@ TimeLines::TimeLines(LinkedTime* time, std::function<TimeAxis()> axis, QWidget* 
     : QWidget(parent), m_time(time), m_axis(std::move(axis)) {
   setAttribute(Qt::WA_TransparentForMouseEvents);
   setAttribute(Qt::WA_NoSystemBackground);
-  for (const auto moved : {&LinkedTime::marksChanged, &LinkedTime::cursorChanged,
-                           &LinkedTime::momentChanged, &LinkedTime::rangeChanged}) {
+  connect(time->shown(), &ShownMoment::marksChanged, this, &TimeLines::follow);
+  for (const auto moved :
+       {&LinkedTime::cursorChanged, &LinkedTime::playheadMoved, &LinkedTime::rangeChanged}) {
     connect(time, moved, this, &TimeLines::follow);
   }
 }
@@ -169,7 +170,7 @@ QList<double> TimeLines::places() const {
     const double x = time ? axis.pixel(*time) : -1.0;
     all << (x >= axis.left - 0.5 && x <= axis.right() + 0.5 ? std::round(x) : -1.0);
   };
-  for (const TimeMark mark : bothMarks) add(m_time->mark(mark));
+  for (const TimeMark mark : bothMarks) add(m_time->shown()->mark(mark));
   add(m_time->playhead());
   add(m_time->cursor());
   return all;

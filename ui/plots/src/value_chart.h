@@ -17,6 +17,9 @@ class QValueAxis;
 
 namespace pitchboard::ui {
 
+/// px of the mock between a curve and the frame, which would hide it.
+inline constexpr int frameRoom = 4;
+
 class ValueChart : public QChartView {
   Q_OBJECT
  public:

@@ -21,13 +21,13 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr std::size_t mostPoints = 8000;  // more do not show on a screen
-constexpr int pixelsPerStepX = 64;        // px of the mock
+constexpr std::size_t maxPoints = 8000;  // more do not show on a screen
+constexpr int pixelsPerStepX = 64;       // px of the mock
 constexpr int pixelsPerStepY = 24;
 constexpr int roomBelow = 52;  // for the numbers and the title of the lower axis
 constexpr int lowestXy = 170;  // lower ones cannot be read: the plots scroll instead
 // A line with more breaks is shown as points: Qt needs a series for each stretch.
-constexpr std::size_t mostStretches = 100;
+constexpr std::size_t maxStretches = 100;
 
 /// Widens the axis that has more room, so that a unit is as long on both.
 void equalize(ValueLimits& x, ValueLimits& y, QSizeF size) {
@@ -140,10 +140,6 @@ void XyPane::restyle() {
 }
 
 void XyPane::draw() {
-  m_chart->setMargins(std::max(left(), m_chart->wantedLeft()), scaled(this, 5), right(),
-                      scaled(this, roomBelow));
-  const QRectF area = m_chart->plotArea();
-  if (area.isEmpty()) return;
   m_points.clear();
   ValueLimits x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};
   QString xTitle, yTitle;
@@ -156,9 +152,9 @@ void XyPane::draw() {
       m_comparedPoints.emplace_back();
       continue;
     }
-    m_points.push_back(xyPoints(curve.view(), curve.ordinate(), range, mostPoints));
+    m_points.push_back(xyPoints(curve.view(), curve.ordinate(), range, maxPoints));
     m_comparedPoints.push_back(xyPoints(curve.compared(*m_feed), curve.comparedOrdinate(*m_feed),
-                                        {range.begin - offset, range.end - offset}, mostPoints));
+                                        {range.begin - offset, range.end - offset}, maxPoints));
     for (const auto* points : {&m_points.back(), &m_comparedPoints.back()}) {
       for (const QPointF& point : *points) {
         if (!isFinite(point)) continue;
@@ -169,19 +165,37 @@ void XyPane::draw() {
     xTitle = commonTitle(xTitle, curve.spec().inputs.value(0));
     yTitle = commonTitle(yTitle, curve.spec().inputs.value(1));
   }
-  const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
-  const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
-  if (m_fits) {
-    m_x = niceLimits(x.low, x.high, stepsX).limits;
-    m_y = m_spec.autoValues ? niceLimits(y.low, y.high, stepsY).limits : m_spec.values;
-    if (m_spec.equalScales) equalize(m_x, m_y, area.size());
-  }
-  m_chart->setAxes(m_x, niceStep(m_x.high - m_x.low, stepsX), m_y,
-                   niceStep(m_y.high - m_y.low, stepsY));
   m_titles = {xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle};
   m_chart->setTitles(m_titles.first, m_titles.second);
+  if (!layOutAxes(x, y)) return;
   showCurves();
   showMarkers();
+}
+
+bool XyPane::layOutAxes(const ValueLimits& x, const ValueLimits& y) {
+  // New numbers can need another width, which changes the room for the curves. The result does not
+  // depend on the numbers before.
+  constexpr int maxPasses = 3;
+  int before = -1;
+  for (int pass = 0; pass < maxPasses; ++pass) {
+    const int wanted = std::max(left(), m_chart->wantedLeft());
+    if (wanted == before) break;
+    before = wanted;
+    m_chart->setMargins(wanted, scaled(this, 5), right(), scaled(this, roomBelow));
+    const QRectF area = m_chart->plotArea();
+    if (area.isEmpty()) return false;
+    const int stepsX = std::max(1, static_cast<int>(area.width()) / scaled(this, pixelsPerStepX));
+    const int stepsY = std::max(1, static_cast<int>(area.height()) / scaled(this, pixelsPerStepY));
+    if (m_fits) {
+      const int room = scaled(this, frameRoom);
+      m_x = niceLimits(x.low, x.high, stepsX, room / area.width()).limits;
+      m_y = m_spec.autoValues ? niceLimits(y.low, y.high, stepsY, room / area.height()).limits
+                              : m_spec.values;
+      if (m_spec.equalScales) equalize(m_x, m_y, area.size());
+    }
+    m_chart->setAxes(m_x, labelStep(m_x, stepsX), m_y, labelStep(m_y, stepsY));
+  }
+  return true;
 }
 
 QPointF XyPane::toValue(const QPointF& view) const {
@@ -202,7 +216,7 @@ QLineSeries* XyPane::nextLine(std::size_t& used) {
 void XyPane::showCurve(const CurveSpec& spec, const QColor& color, double width,
                        const std::vector<QPointF>& points, std::size_t& used, Qt::PenStyle pen) {
   const auto stretches =
-      spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(points, mostStretches);
+      spec.style == CurveStyle::Points ? std::nullopt : stretchesOf(points, maxStretches);
   if (stretches) {
     const QPen stroke(color, points.size() > manyPoints ? 0.0 : width, pen);
     for (const QList<QPointF>& stretch : *stretches) {

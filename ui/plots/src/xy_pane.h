@@ -46,6 +46,8 @@ class XyPane : public PlotPane {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  /// Limits and steps for points between these; false where there is no room to draw.
+  bool layOutAxes(const ValueLimits& x, const ValueLimits& y);
   void showCurves();
   void showCurve(const CurveSpec& spec, const QColor& color, double width,
                  const std::vector<QPointF>& points, std::size_t& used, Qt::PenStyle pen);

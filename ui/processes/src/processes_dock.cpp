@@ -12,7 +12,7 @@
 #include <ui/base/table_style.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "processes_model.h"
 
@@ -43,10 +43,10 @@ QString emptyText(const MatchController& controller) {
 
 class ProcessesDock : public QStackedWidget {
  public:
-  ProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent)
+  ProcessesDock(MatchController* controller, ShownMoment* shown, QWidget* parent)
       : QStackedWidget(parent),
         m_controller(controller),
-        m_source(source),
+        m_shown(shown),
         m_model(new ProcessesModel(this)),
         m_page(new QWidget(this)),
         m_asNow(new QLabel(
@@ -60,7 +60,7 @@ class ProcessesDock : public QStackedWidget {
     m_table->setModel(m_model);
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     styleTable(m_table);
-    const int widths[ProcessesModel::columns] = {56, 110, 240, 64, 84, 64, 60, 76, 80, 220};
+    const int widths[ProcessesModel::columns] = {56, 110, 120, 200, 64, 84, 64, 60, 76, 80, 220};
     for (int column = 0; column < ProcessesModel::columns; ++column) {
       m_table->setColumnWidth(column, scaled(m_table, widths[column]));
     }
@@ -77,8 +77,8 @@ class ProcessesDock : public QStackedWidget {
     addWidget(m_empty);
     m_refresh = Beat::display().add(
         this, least, [this] { refresh(); }, most);
-    connect(m_source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
-    connect(m_source, &SourceSwitch::changed, this, [this] { refresh(); });
+    connect(m_shown, &ShownMoment::frameReceived, this, [this] { m_refresh->want(); });
+    connect(m_shown, &ShownMoment::sourceChosen, this, [this] { refresh(); });
     connect(m_controller->edits(), &MatchEdits::lockedChanged, this, [this] { refresh(); });
     for (const auto changed : {&MatchController::scenarioChanged, &MatchController::opened}) {
       connect(m_controller, changed, this, [this] { refresh(); });
@@ -91,15 +91,15 @@ class ProcessesDock : public QStackedWidget {
 
  private:
   void refresh() {
-    const bool simulated = m_source->kind() == SourceKind::Simulate;
+    const bool simulated = m_shown->source() == m_controller;
     // Processes are not recorded, so the list shows them as they are now and does nothing.
-    if (const FramePtr frame = simulated ? m_controller->frame() : m_source->frame())
+    if (const FramePtr frame = simulated ? m_controller->frame() : m_shown->frame())
       m_model->update(*frame, std::chrono::steady_clock::now());
     else
       m_model->clear();
     m_empty->setText(
         simulated ? emptyText(*m_controller)
-        : m_source->kind() == SourceKind::Live
+        : m_shown->kind().hasPresent
             ? QStringLiteral("These robots' processes run on the robots. The letters on the cards "
                              "show which of them work.")
             : QStringLiteral("Processes are not recorded. The letters on the cards show which of "
@@ -112,8 +112,8 @@ class ProcessesDock : public QStackedWidget {
   }
 
   /// What the clicked row and the selected ones stand for.
-  std::vector<link::ProcessSummary> chosen(const QModelIndex& clicked) const {
-    std::vector<link::ProcessSummary> all;
+  std::vector<link::ProcessStatus> chosen(const QModelIndex& clicked) const {
+    std::vector<link::ProcessStatus> all;
     const QModelIndexList rows = m_table->selectionModel()->selectedRows();
     const bool among = std::any_of(rows.begin(), rows.end(), [&clicked](const QModelIndex& row) {
       return row.row() == clicked.row();
@@ -125,7 +125,7 @@ class ProcessesDock : public QStackedWidget {
 
   void showMenu(const QPoint& at) {
     const QModelIndex index = m_table->indexAt(at);
-    if (m_source->kind() != SourceKind::Simulate || !index.isValid()) return;
+    if (!m_shown->kind().canBeEdited || !index.isValid()) return;
     const auto processes = chosen(index);
     const QString robot = index.siblingAtColumn(ProcessesModel::Robot).data().toString();
     const QString name =
@@ -142,8 +142,7 @@ class ProcessesDock : public QStackedWidget {
       QAction* action =
           menu.addAction(themedIcon(QString::fromUtf8(icon)), text.arg(name), m_controller,
                          [edits = m_controller->edits(), order, processes] {
-                           for (const link::ProcessSummary& one : processes)
-                             (edits->*order)(one.id);
+                           for (const link::ProcessStatus& one : processes) (edits->*order)(one.id);
                          });
       action->setEnabled(enabled);
     };
@@ -168,7 +167,7 @@ class ProcessesDock : public QStackedWidget {
   }
 
   MatchController* m_controller;
-  SourceSwitch* m_source;
+  ShownMoment* m_shown;
   ProcessesModel* m_model;
   QWidget* m_page;
   QLabel* m_asNow;
@@ -179,8 +178,8 @@ class ProcessesDock : public QStackedWidget {
 
 }  // namespace
 
-QWidget* makeProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent) {
-  return new ProcessesDock(controller, source, parent);
+QWidget* makeProcessesDock(MatchController* controller, ShownMoment* shown, QWidget* parent) {
+  return new ProcessesDock(controller, shown, parent);
 }
 
 }  // namespace pitchboard::ui

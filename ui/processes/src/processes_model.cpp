@@ -12,7 +12,7 @@ namespace {
 
 using State = link::ProcessState;
 
-QString stateText(const link::ProcessSummary& status) {
+QString stateText(const link::ProcessStatus& status) {
   const QString detail = QString::fromStdString(status.detail);
   const auto with = [&detail](const QString& state) {
     return detail.isEmpty() ? state : state + QStringLiteral(" (") + detail + QLatin1Char(')');
@@ -21,7 +21,9 @@ QString stateText(const link::ProcessSummary& status) {
     case State::Waiting:
       return QStringLiteral("waiting to start");
     case State::Running:
-      return QStringLiteral("running");
+      return status.deaths == 0   ? QStringLiteral("running")
+             : status.deaths == 1 ? QStringLiteral("running, crashed once")
+                                  : QStringLiteral("running, crashed %1 times").arg(status.deaths);
     case State::NotResponding:
       return with(QStringLiteral("not responding"));
     case State::Restarting:
@@ -41,7 +43,7 @@ QString stateText(const link::ProcessSummary& status) {
 void ProcessesModel::update(const link::MatchFrame& frame, Time now) {
   std::vector<Row> rows;
   for (const link::RobotFrame& robot : frame.robots) {
-    for (const link::ProcessSummary& one : robot.processes()) {
+    for (const link::ProcessStatus& one : robot.processes()) {
       const auto since = std::chrono::duration_cast<std::chrono::seconds>(now - one.started);
       rows.push_back({one, robotName(robot), one.pid != 0 ? qint64{since.count()} : 0});
     }
@@ -69,7 +71,7 @@ void ProcessesModel::clear() {
   endResetModel();
 }
 
-const link::ProcessSummary& ProcessesModel::statusAt(int row) const {
+const link::ProcessStatus& ProcessesModel::statusAt(int row) const {
   return m_rows[static_cast<std::size_t>(row)].status;
 }
 
@@ -82,13 +84,15 @@ int ProcessesModel::columnCount(const QModelIndex& parent) const {
 }
 
 QString ProcessesModel::text(const Row& row, int column) const {
-  const link::ProcessSummary& status = row.status;
+  const link::ProcessStatus& status = row.status;
   const bool runs = status.pid != 0;
   switch (column) {
     case Robot:
       return row.robot;
     case Process:
       return QString::fromStdString(status.name);
+    case Program:
+      return QString::fromStdString(status.program());
     case State:
       return stateText(status);
     case Pid:
@@ -120,6 +124,14 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
   const Row& row = m_rows[static_cast<std::size_t>(index.row())];
   if (role == Qt::DisplayRole) return text(row, index.column());
   if (role == Qt::ToolTipRole) {
+    if (index.column() == State && row.status.deaths > 0) {
+      return QStringLiteral("Last crash: ") + QString::fromStdString(row.status.lastDeath);
+    }
+    if (index.column() == Program) {
+      QStringList command;
+      for (const std::string& part : row.status.command) command << QString::fromStdString(part);
+      return command.join(QLatin1Char(' '));
+    }
     if (index.column() != LastOutput) return text(row, index.column());
     QStringList lines;
     for (const std::string& line : row.status.lastLines) lines << QString::fromStdString(line);
@@ -139,7 +151,7 @@ QVariant ProcessesModel::data(const QModelIndex& index, int role) const {
       case State::Ended:
         return row.status.detail == "exit code 0" ? theme().secondaryText : theme().errorText;
       case State::Running:
-        break;
+        return row.status.deaths > 0 ? QVariant(theme().warningText) : QVariant();
     }
   }
   return {};
@@ -151,9 +163,9 @@ QVariant ProcessesModel::headerData(int section, Qt::Orientation orientation, in
     return static_cast<int>(Qt::AlignRight | Qt::AlignVCenter);
   }
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  static const char* const names[columns] = {"Robot",     "Process",    "State", "PID",
-                                             "Up",        "Restarts",   "CPU",   "Memory",
-                                             "Heartbeat", "Last output"};
+  static const char* const names[columns] = {"Robot",  "Process",   "Program",    "State",
+                                             "PID",    "Up",        "Restarts",   "CPU",
+                                             "Memory", "Heartbeat", "Last output"};
   return section >= 0 && section < columns ? QString::fromUtf8(names[section]) : QVariant();
 }
 

@@ -17,6 +17,7 @@ class ProcessesModel : public QAbstractTableModel {
   enum Column {
     Robot,
     Process,
+    Program,
     State,
     Pid,
     Uptime,
@@ -33,7 +34,7 @@ class ProcessesModel : public QAbstractTableModel {
   /// `now`: for the time since the start.
   void update(const link::MatchFrame& frame, Time now);
   void clear();
-  const link::ProcessSummary& statusAt(int row) const;
+  const link::ProcessStatus& statusAt(int row) const;
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -42,7 +43,7 @@ class ProcessesModel : public QAbstractTableModel {
 
  private:
   struct Row {
-    link::ProcessSummary status;
+    link::ProcessStatus status;
     QString robot;
     qint64 seconds = 0;  // since its start
     bool operator==(const Row&) const = default;

@@ -7,8 +7,6 @@ namespace pitchboard::ui {
 namespace {
 
 using sim::CallKind;
-using sim::GamePhase;
-using sim::PlayState;
 
 NextStep toState(PlayState state, const char* text, const char* tip) {
   return {sim::RefereeCall{.kind = CallKind::State, .state = state}, QString::fromUtf8(text),
@@ -24,8 +22,8 @@ NextStep skipToKickOff() {
           QStringLiteral("Plays at full speed until kick-off"), true};
 }
 
-NextStep nextOfSetPlay(sim::Restart::Step step) {
-  using Step = sim::Restart::Step;
+NextStep nextOfSetPlay(Restart::Step step) {
+  using Step = Restart::Step;
   const bool placing = step == Step::Placing, preparing = step == Step::Preparing;
   return calling(CallKind::NextStep,
                  placing     ? "Next step: prepare"
@@ -36,7 +34,7 @@ NextStep nextOfSetPlay(sim::Restart::Step step) {
                              : "Anybody may play the ball");
 }
 
-std::vector<NextStep> afterTheEnd(const sim::GameState& game) {
+std::vector<NextStep> afterTheEnd(const Game& game) {
   const bool shootOut = game.phase == GamePhase::ShootOut;
   if (shootOut && !game.over) {
     return {toState(PlayState::Set, "Next shot", "The next robot places itself")};
@@ -58,8 +56,7 @@ std::vector<NextStep> afterTheEnd(const sim::GameState& game) {
 
 }  // namespace
 
-std::vector<NextStep> nextSteps(const link::RefereedGame& refereed) {
-  const sim::GameState& game = refereed.game;
+std::vector<NextStep> nextSteps(const Game& game, const sim::RefereeRules& rules) {
   const bool shootOut = game.phase == GamePhase::ShootOut;
   std::vector<NextStep> steps;
   if (game.stopped && game.state != PlayState::Finished) {
@@ -71,11 +68,11 @@ std::vector<NextStep> nextSteps(const link::RefereedGame& refereed) {
         steps.push_back(toState(PlayState::Set, "Next shot", "The next robot places itself"));
       else
         steps.push_back(toState(PlayState::Ready, "READY", "Robots walk to their places"));
-      if (!shootOut && refereed.rules.automatic) steps.push_back(skipToKickOff());
+      if (!shootOut && rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Ready:
       steps.push_back(toState(PlayState::Set, "SET", "Robots stand still"));
-      if (refereed.rules.automatic) steps.push_back(skipToKickOff());
+      if (rules.automatic) steps.push_back(skipToKickOff());
       break;
     case PlayState::Set:
       steps.push_back(toState(PlayState::Playing, "PLAYING", "Starts play"));
@@ -93,30 +90,17 @@ std::vector<NextStep> nextSteps(const link::RefereedGame& refereed) {
     case PlayState::Finished:
       steps = afterTheEnd(game);
       break;
+    case PlayState::Standby:
+    case PlayState::Unknown:
+      break;
   }
-  std::erase_if(steps, [&refereed](const NextStep& step) {
-    return step.call && !sim::checkCall(refereed.game, refereed.rules, {}, *step.call);
+  std::erase_if(steps, [&](const NextStep& step) {
+    return step.call && !sim::checkCall(game, rules, {}, *step.call);
   });
   return steps;
 }
 
-QString playText(const link::RefereedGame& refereed) {
-  const sim::GameState& game = refereed.game;
-  using Step = sim::Restart::Step;
-  if (game.setPlay() == sim::SetPlay::None) return {};
-  const std::string_view label = labelOf(game.setPlay());
-  QString text = QString::fromUtf8(label.data(), static_cast<qsizetype>(label.size()));
-  if (game.setPlayTeam() >= 0) {
-    text += QStringLiteral(" for ") +
-            teamText(game.teams[static_cast<std::size_t>(game.setPlayTeam())]);
-  }
-  const Step step = game.restart.step;
-  return text + (step == Step::Placing     ? QStringLiteral(", ball is placed")
-                 : step == Step::Preparing ? QStringLiteral(", prepare")
-                                           : QStringLiteral(", ready"));
-}
-
-QString teamText(const sim::GameTeam& team) {
+QString teamText(const GameTeam& team) {
   const std::string_view name = info(team.colour).name;
   return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())).toUpper();
 }

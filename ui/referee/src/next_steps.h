@@ -19,12 +19,9 @@ struct NextStep {
 };
 
 /// At most three, the usual one first; each is allowed by sim::checkCall().
-std::vector<NextStep> nextSteps(const link::RefereedGame& refereed);
-
-/// "corner kick for BLUE, prepare": what is going on besides the state; empty: nothing.
-QString playText(const link::RefereedGame& refereed);
+std::vector<NextStep> nextSteps(const Game& game, const sim::RefereeRules& rules);
 
 /// "BLUE".
-QString teamText(const sim::GameTeam& team);
+QString teamText(const GameTeam& team);
 
 }  // namespace pitchboard::ui

@@ -5,7 +5,7 @@
 
 #include <ui/base/table_style.h>
 #include <ui/sources/event_list.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -32,14 +32,14 @@ bool isOfReferee(link::MatchEventKind kind) {
   }
 }
 
-/// Those of the referee, up to the moment that is shown.
+/// The events of the referee up to the shown moment.
 class RefereeEvents : public QSortFilterProxyModel {
  public:
-  RefereeEvents(Timeline* timeline, QObject* parent)
-      : QSortFilterProxyModel(parent), m_timeline(timeline) {
-    connect(timeline, &Timeline::sourceChanged, this, &RefereeEvents::follow);
-    connect(timeline, &Timeline::moved, this, &RefereeEvents::look);
-    connect(timeline, &Timeline::lookingBackChanged, this, &RefereeEvents::look);
+  RefereeEvents(ShownMoment* shown, QObject* parent)
+      : QSortFilterProxyModel(parent), m_shown(shown) {
+    connect(shown, &ShownMoment::sourceChanged, this, &RefereeEvents::follow);
+    connect(shown, &ShownMoment::moved, this, &RefereeEvents::look);
+    connect(shown, &ShownMoment::lookingBackChanged, this, &RefereeEvents::look);
     follow();
   }
   double timeOf(int row) const { return at(mapToSource(index(row, 0)).row()).time; }
@@ -54,13 +54,13 @@ class RefereeEvents : public QSortFilterProxyModel {
   const EventList* list() const { return static_cast<const EventList*>(sourceModel()); }
   const link::MatchEvent& at(int row) const { return list()->at(row); }
   void follow() {
-    setSourceModel(m_timeline->events());
+    setSourceModel(m_shown->events());
     look();
   }
   void look() {
     constexpr double halfATick = 0.005;  // s
-    const bool past = m_timeline->isLookingBack() || m_timeline->isRecording();
-    const auto until = past ? std::optional(m_timeline->shownTime() + halfATick) : std::nullopt;
+    const auto chosen = m_shown->chosenTime();
+    const auto until = chosen ? std::optional(*chosen + halfATick) : std::nullopt;
     if (until == m_until) return;
     const auto shown = [this](std::optional<double> time) {
       if (!time) return list()->rowCount();
@@ -71,15 +71,15 @@ class RefereeEvents : public QSortFilterProxyModel {
     if (!same) invalidateFilter();
   }
 
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   std::optional<double> m_until;
 };
 
 }  // namespace
 
-RefereeLog::RefereeLog(Timeline* timeline, QWidget* parent) : QTableView(parent) {
+RefereeLog::RefereeLog(ShownMoment* shown, QWidget* parent) : QTableView(parent) {
   setObjectName(QStringLiteral("refereeLog"));
-  auto* events = new RefereeEvents(timeline, this);
+  auto* events = new RefereeEvents(shown, this);
   setModel(events);
   styleTable(this);
   horizontalHeader()->hide();
@@ -89,9 +89,8 @@ RefereeLog::RefereeLog(Timeline* timeline, QWidget* parent) : QTableView(parent)
   setMinimumHeight(scaled(this, 84));
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Ignored);  // what is left, at least that
   setToolTip(QStringLiteral("Click a line to show its moment."));
-  connect(this, &QTableView::clicked, this, [timeline, events](const QModelIndex& index) {
-    timeline->seek(events->timeOf(index.row()));
-  });
+  connect(this, &QTableView::clicked, this,
+          [shown, events](const QModelIndex& index) { shown->seek(events->timeOf(index.row())); });
   for (const auto change : {&QAbstractItemModel::rowsInserted, &QAbstractItemModel::rowsRemoved}) {
     connect(events, change, this, &QTableView::scrollToBottom, Qt::QueuedConnection);
   }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What the referee said up to the moment that is shown, newest last. A view of the timeline's
-// events, so that undo, looking back and another source need nothing of their own. UI thread.
+// What the referee said up to the moment that is shown, newest last. A view of its events, so that
+// undo, looking back and another source need nothing of their own. UI thread.
 
 #include <QTableView>
 
 namespace pitchboard::ui {
 
-class Timeline;
+class ShownMoment;
 
 class RefereeLog : public QTableView {
  public:
-  RefereeLog(Timeline* timeline, QWidget* parent);
+  RefereeLog(ShownMoment* shown, QWidget* parent);
 };
 
 }  // namespace pitchboard::ui

@@ -13,7 +13,7 @@ namespace {
 // When the controllers call a robot good, late and offline, s.
 constexpr double goodUntil = 2.0, lateUntil = 4.0;
 
-QString cardsOf(const link::RefereePlayerView& player) {
+QString cardsOf(const GamePlayer& player) {
   QStringList cards;
   const auto add = [&cards](int count, const QString& one, const QString& many) {
     if (count == 1) cards << one;
@@ -28,22 +28,22 @@ QString cardsOf(const link::RefereePlayerView& player) {
 
 }  // namespace
 
-RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
+RefereeModel::Row RefereeModel::rowOf(int shirt, const GamePlayer& player, int secondsLeft,
                                       const link::RobotReplyView* reply) const {
   Row row;
-  row.number = player.number;
-  row.penalised = !player.penalty.empty();
-  row.texts[Player] = QString::number(player.number);
+  row.number = shirt;
+  const bool waits = player.penalty == PenaltyKind::Substitute;
+  row.penalised = player.penalty != PenaltyKind::None && !waits;
+  row.texts[Player] = QString::number(shirt);
   if (player.goalkeeper) {
     row.texts[Player] += m_compact ? QStringLiteral(" GK") : QStringLiteral(" (goal)");
   }
-  row.texts[State] =
-      row.penalised ? QString::fromStdString(player.penalty) : QStringLiteral("plays");
-  if (row.penalised) row.texts[Left] = durationText(player.secondsLeft);
+  row.texts[State] = row.penalised || waits ? labelText(player.penalty) : QStringLiteral("plays");
+  if (row.penalised) row.texts[Left] = durationText(secondsLeft);
   row.texts[Cards] = cardsOf(player);
   row.stateTip = row.texts[State];
   if (m_compact) {
-    if (row.penalised) row.texts[State] = penaltyTag(player.penalty, player.secondsLeft);
+    if (row.penalised) row.texts[State] = penaltyTag({player.penalty, secondsLeft});
     if (!row.texts[Cards].isEmpty()) {
       row.texts[State] += QStringLiteral(" · ") + row.texts[Cards];
       row.stateTip += QStringLiteral(" · ") + row.texts[Cards];
@@ -69,17 +69,19 @@ RefereeModel::Row RefereeModel::rowOf(const link::RefereePlayerView& player,
   return row;
 }
 
-void RefereeModel::update(const link::RefereeTeamView& team,
-                          const std::vector<link::RobotReplyView>& replies) {
+void RefereeModel::update(const link::MatchFrame& frame, const GameTeam& team,
+                          const std::vector<int>& shirts) {
+  const auto& replies = frame.reception.replies;
   std::vector<Row> rows;
-  for (const link::RefereePlayerView& player : team.players) {
-    const auto reply =
-        std::find_if(replies.begin(), replies.end(), [&](const link::RobotReplyView& r) {
-          return r.team == team.number && r.player == player.number;
-        });
-    rows.push_back(rowOf(player, reply == replies.end() ? nullptr : &*reply));
+  for (const int shirt : shirts) {
+    const GamePlayer& player = *team.player(shirt);
+    const auto reply = std::find_if(
+        replies.begin(), replies.end(),
+        [&](const link::RobotReplyView& r) { return r.team == team.number && r.player == shirt; });
+    rows.push_back(rowOf(shirt, player, frame.game->penaltySeconds(player),
+                         reply == replies.end() ? nullptr : &*reply));
   }
-  // Who sits out is looked for: first in the list.
+  // Penalised robots come first in the list.
   std::stable_sort(rows.begin(), rows.end(), [this](const Row& a, const Row& b) {
     return !m_compact && a.penalised != b.penalised ? a.penalised : a.number < b.number;
   });

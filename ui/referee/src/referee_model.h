@@ -8,7 +8,7 @@
 #include <array>
 #include <vector>
 
-#include <robotlink/frame/live_values.h>
+#include <robotlink/frame/match_frame.h>
 
 namespace pitchboard::ui {
 
@@ -27,7 +27,8 @@ class RefereeModel : public QAbstractTableModel {
     emit headerDataChanged(Qt::Horizontal, 0, columns - 1);
   }
 
-  void update(const link::RefereeTeamView& team, const std::vector<link::RobotReplyView>& replies);
+  /// Shows the players with these shirts. The frame has the game.
+  void update(const link::MatchFrame& frame, const GameTeam& team, const std::vector<int>& shirts);
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -43,7 +44,8 @@ class RefereeModel : public QAbstractTableModel {
     QString tip, stateTip;
     bool operator==(const Row&) const = default;
   };
-  Row rowOf(const link::RefereePlayerView& player, const link::RobotReplyView* reply) const;
+  Row rowOf(int shirt, const GamePlayer& player, int secondsLeft,
+            const link::RobotReplyView* reply) const;
   std::vector<Row> m_rows;
   bool m_compact = false;
 };

@@ -15,8 +15,7 @@
 #include <ui/base/table_style.h>
 #include <ui/sources/referee_calls.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "next_steps.h"
 #include "referee_log.h"
@@ -27,10 +26,7 @@ namespace pitchboard::ui {
 namespace {
 
 using sim::CallKind;
-using sim::PenaltyKind;
-using sim::PlayState;
 using sim::RefereeCall;
-using sim::SetPlay;
 
 /// Calls that have keys, wherever the focus is while the panel is shown.
 struct KeyedCall {
@@ -83,7 +79,7 @@ class RefereePanel : public QScrollArea {
     addTeams();
     addPenalties();
     addSetPlays();
-    m_log = new RefereeLog(context.timeline, m_inside);
+    m_log = new RefereeLog(context.shown, m_inside);
     m_column->addWidget(m_log, 1);
     m_rules = new RulesFold(context.controller, m_inside);
     m_column->addWidget(m_rules);
@@ -95,9 +91,9 @@ class RefereePanel : public QScrollArea {
     }
     constexpr Beat::Milliseconds least{100};  // between two looks at frames
     m_later = Beat::display().add(this, least, [this] { refresh(); });
-    connect(context.source, &FrameSource::frameReceived, this, [this] { m_later->want(); });
-    connect(context.source, &FrameSource::restarted, this, &RefereePanel::refresh);
-    connect(context.source, &SourceSwitch::changed, this, &RefereePanel::refresh);
+    connect(context.shown, &FrameSource::frameReceived, this, [this] { m_later->want(); });
+    connect(context.shown, &FrameSource::restarted, this, &RefereePanel::refresh);
+    connect(context.shown, &ShownMoment::sourceChosen, this, &RefereePanel::refresh);
     connect(edits(), &MatchEdits::lockedChanged, this, &RefereePanel::refresh);
     if (context.selection != nullptr) {
       connect(context.selection, &RobotSelection::changed, this, &RefereePanel::refresh);
@@ -327,13 +323,13 @@ class RefereePanel : public QScrollArea {
   Chosen chosen() const {
     Chosen all;
     const FramePtr frame = m_context.controller->frame();
-    if (!frame || !frame->refereedGame) return all;
+    if (!frame || !frame->rules) return all;
     const auto add = [&all](const link::RobotFrame& robot) {
       all.robots.push_back(robot.slot());
       all.names << robotName(robot);
     };
     for (const TeamColumn* column : m_columns) {
-      const auto& team = frame->refereedGame->game.teams[static_cast<std::size_t>(column->team())];
+      const auto& team = frame->game->teams[static_cast<std::size_t>(column->team())];
       for (const int number : column->chosen()) {
         for (const link::RobotFrame& robot : frame->robots) {
           if (robot.identity.team == team.colour && robot.identity.number == number) add(robot);
@@ -341,17 +337,17 @@ class RefereePanel : public QScrollArea {
       }
     }
     if (!all.robots.empty() || m_context.selection == nullptr) return all;
-    for (const RobotKey& key : m_context.selection->ids()) {
-      if (const link::RobotFrame* robot = frame->robot(key)) add(*robot);
+    for (const RobotUid uid : m_context.selection->ids()) {
+      if (const link::RobotFrame* robot = frame->robot(uid)) add(*robot);
     }
     return all;
   }
 
   void refresh() {
     if (!isVisible()) return;
-    const FramePtr frame = m_context.source->frame();
-    const bool simulating = m_context.source->kind() == SourceKind::Simulate;
-    const bool refereed = frame && frame->referee;
+    const FramePtr frame = m_context.shown->frame();
+    const bool simulating = m_context.shown->kind().canBeEdited;
+    const bool refereed = frame && frame->game;
     m_why = edits()->isLocked() ? MatchEdits::lockedText() : QString();
     showState(frame.get());
     for (QWidget* part : {m_next, m_penalties, m_setPlays, static_cast<QWidget*>(m_who)}) {
@@ -376,19 +372,19 @@ class RefereePanel : public QScrollArea {
   }
 
   void showState(const link::MatchFrame* frame) {
-    const bool any = frame != nullptr && frame->referee;
+    const bool any = frame != nullptr && frame->game;
     m_stateRow->setVisible(any);
     m_log->setVisible(any || m_log->model()->rowCount() > 0);
     if (!any) {
       m_state->setText({});
       m_clock->setText({});
-      const SourceKind kind = m_context.source->kind();
+      const SourceKind& kind = m_context.shown->kind();
       m_detail->setText(
-          kind == SourceKind::Live
+          kind.hasPresent && !kind.canBeEdited
               ? QStringLiteral(
                     "Waiting for the referee… Choose its port and version in Live settings.")
-          : frame == nullptr ? m_context.source->emptyText()
-          : kind == SourceKind::Replay
+          : frame == nullptr ? m_context.shown->emptyText()
+          : !kind.hasPresent
               ? QStringLiteral("This session has no referee at this moment.")
               : QStringLiteral("This match has no referee. Choose rules below to get "
                                "one."));
@@ -396,30 +392,28 @@ class RefereePanel : public QScrollArea {
       m_truth->hide();
       return;
     }
-    const link::RefereeView& view = *frame->referee;
-    m_state->setText(QString::fromStdString(view.state));
-    m_clock->setText(refereeClockText(view.secondsLeft));
-    QStringList parts{view.firstHalf ? QStringLiteral("First half")
+    const Game& game = *frame->game;
+    m_state->setText(labelText(game.state));
+    m_clock->setText(refereeClockText(game.secondsLeft()));
+    QStringList parts{game.half == 1 ? QStringLiteral("First half")
                                      : QStringLiteral("Second half")};
-    if (!view.phase.empty()) parts << QString::fromStdString(view.phase);
-    if (view.stopped) parts << QStringLiteral("stopped");
-    if (view.timedOut) {
-      parts << QStringLiteral("last packet %1 ago").arg(durationText(view.age));
+    if (game.phase != GamePhase::Normal) parts << labelText(game.phase);
+    if (game.stopped) parts << QStringLiteral("stopped");
+    if (frame->reception.timedOut) {
+      parts << QStringLiteral("last packet %1 ago").arg(durationText(frame->reception.age));
     }
-    const QString play = frame->refereedGame ? playText(*frame->refereedGame) : QString();
+    const QString play = refereeSetPlayText(*frame);
     if (!play.isEmpty()) parts << play;
-    const QString announced = refereeSetPlayText(view);
-    if (play.isEmpty() && !announced.isEmpty()) parts << announced;
     QString detail = parts.join(QStringLiteral(" · "));
     if (!m_why.isEmpty()) detail += QLatin1Char('\n') + m_why;
     m_detail->setText(detail);
-    m_truth->setText(refereeTruthText(view));
+    m_truth->setText(refereeTruthText(*frame));
     m_truth->setVisible(!m_truth->text().isEmpty());
   }
 
   void showNextSteps() {
     const FramePtr present = m_context.controller->frame();
-    if (present && present->refereedGame) m_offered = nextSteps(*present->refereedGame);
+    if (present && present->rules) m_offered = nextSteps(*present->game, *present->rules);
     for (std::size_t i = 0; i < m_steps.size(); ++i) {
       QPushButton* one = m_steps[i];
       one->setVisible(i < m_offered.size());
@@ -477,10 +471,10 @@ class RefereePanel : public QScrollArea {
 
   void showSetPlays(const QString& why) {
     const FramePtr frame = m_context.controller->frame();
-    if (!frame || !frame->refereedGame) return;
+    if (!frame || !frame->rules) return;
     for (int team = 0; team < 2; ++team) {
-      m_for->setItemText(team, QStringLiteral("For ") +
-                                   teamText(frame->refereedGame->game.teams[std::size_t(team)]));
+      m_for->setItemText(team,
+                         QStringLiteral("For ") + teamText(frame->game->teams[std::size_t(team)]));
     }
     for (QComboBox* box : {m_for, m_play}) box->setEnabled(why.isEmpty());
     const QString refusal = why.isEmpty() ? whyRefused(frame.get(), setPlay()) : why;

@@ -83,60 +83,35 @@ void TeamColumn::add(const char* name, const char* tip, const sim::RefereeCall& 
   m_calls.push_back({button, call, QString::fromUtf8(tip)});
 }
 
-namespace {
-
-/// Everybody whom a person can call, also who is not in the packets: substitutes.
-std::vector<link::RefereePlayerView> playersOf(const link::MatchFrame& frame,
-                                               const sim::GameTeam& team) {
-  std::vector<link::RefereePlayerView> players;
-  for (const link::RobotFrame& robot : frame.robots) {
-    if (robot.identity.team != team.colour) continue;
-    const sim::GamePlayer* one =
-        frame.refereedGame->game.player(team.colour, robot.identity.number);
-    if (one == nullptr) continue;
-    link::RefereePlayerView& player = players.emplace_back();
-    player.number = robot.identity.number;
-    if (one->penalty != sim::PenaltyKind::None) player.penalty = labelOf(one->penalty);
-    player.secondsLeft = std::max(0, sim::secondsOf(one->ticksLeft, frame.settings->tickRate));
-    player.warnings = one->warnings;
-    player.yellow = one->yellow;
-    player.red = one->red;
-    player.cautions = one->cautions;
-    player.goalkeeper = one->goalkeeper;
-  }
-  return players;
-}
-
-}  // namespace
-
 void TeamColumn::show(const link::MatchFrame& frame, bool refereed) {
-  const link::RefereeView& view = *frame.referee;
-  link::RefereeTeamView team = view.teams[m_right ? 1 : 0];
-  if (frame.refereedGame) {
-    const auto left = static_cast<int>(frame.refereedGame->game.leftTeam());
-    m_team = m_right ? 1 - left : left;
-    if (refereed) {
-      team.players =
-          playersOf(frame, frame.refereedGame->game.teams[static_cast<std::size_t>(m_team)]);
+  const Game& game = *frame.game;
+  const GameTeam& team = game.teamAt(m_right);
+  m_team = static_cast<int>(m_right ? 1 - game.leftTeam() : game.leftTeam());
+  std::vector<int> shirts = team.onField();
+  if (refereed) {
+    // Everybody whom a person can call, also substitutes.
+    shirts.clear();
+    for (const link::RobotFrame& robot : frame.robots) {
+      const int shirt = robot.identity.number;
+      if (robot.identity.team == team.colour && team.slotOf(shirt) != 0) shirts.push_back(shirt);
     }
   }
-  const auto drawn = teamColorNamed(team.colour);
+  const auto drawn = robotColor(team.colour);
   const QColor colour = drawn ? theme().team(*drawn) : theme().secondaryText;
   m_square->setStyleSheet(QStringLiteral("background: %1; border-radius: 2px").arg(colour.name()));
-  m_name->setText(!refereed           ? refereeTeamText(team, view.ourTeam)
-                  : team.name.empty() ? QString::fromStdString(team.colour).toUpper()
-                                      : QString::fromStdString(team.name));
-  m_name->setToolTip(refereeTeamText(team, view.ourTeam));
+  const QString more = refereeTeamText(frame, team);
+  m_name->setText(refereed ? refereeTeamName(frame, team) : more);
+  m_name->setToolTip(more);
   m_score->setText(QString::number(team.score));
   m_score->setVisible(refereed);
   m_buttons->setVisible(refereed);
   m_model->setCompact(refereed);
-  m_model->update(team, view.replies);
+  m_model->update(frame, team, shirts);
   m_table->horizontalHeader()->setVisible(!refereed);
   m_table->setColumnHidden(RefereeModel::Cards, refereed);
   m_table->setColumnHidden(RefereeModel::Left, refereed);
   // Robots answer the referee, who tells it in monitor mode only.
-  m_table->setColumnHidden(RefereeModel::Robot, refereed || view.replies.empty());
+  m_table->setColumnHidden(RefereeModel::Robot, refereed || frame.reception.replies.empty());
   // Five rows; more are scrolled to.
   const int rows = std::clamp(m_model->rowCount(), 2, 5);
   m_table->setMinimumHeight(rows * m_table->verticalHeader()->defaultSectionSize() +

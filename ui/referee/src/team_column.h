@@ -33,7 +33,7 @@ class TeamColumn : public QWidget {
   /// The numbers of the chosen players.
   std::vector<int> chosen() const;
   const QTableView* table() const { return m_table; }
-  /// Index of GameState::teams.
+  /// Index of Game::teams.
   int team() const { return m_team; }
 
  private:

@@ -18,7 +18,7 @@ namespace {
 /// Which processes run for it, on a line of its own.
 QString runsText(const link::RobotFrame& robot) {
   QStringList names;
-  for (const link::ProcessSummary& one : robot.processes()) {
+  for (const link::ProcessStatus& one : robot.processes()) {
     if (one.pid != 0) names << QString::fromStdString(one.name);
   }
   return names.isEmpty() ? QString()
@@ -28,20 +28,21 @@ QString runsText(const link::RobotFrame& robot) {
 /// Its clocks do not go with the match. A program that was meant to keep real time is in nobody's
 /// way at ×1; one that the match's clock cannot be loaded into is named at once, as the match may
 /// have slowed down to it.
-bool keepsRealTime(const link::ProcessSummary& program) {
-  const bool meant = program.whyRealTime == link::whyRealTime(link::ProcessClock::Real);
-  return program.isTeamProgram && !program.whyRealTime.empty() && (!meant || program.speed != 1.0);
+bool keepsRealTime(const link::ProcessStatus& program) {
+  const bool isMeant = program.clock == link::ProcessClock::Real;
+  return program.isTeamProgram && program.clock != link::ProcessClock::Match &&
+         (!isMeant || program.speed != 1.0);
 }
 
 bool isStopped(const link::RobotFrame& robot, const QString& process) {
-  return std::ranges::any_of(robot.processes(), [&](const link::ProcessSummary& one) {
+  return std::ranges::any_of(robot.processes(), [&](const link::ProcessStatus& one) {
     return one.state == link::ProcessState::Stopped && QString::fromStdString(one.name) == process;
   });
 }
 
 /// What is wrong with the separate processes of the robot; the least of it is one that is slow.
 void tagProcesses(CardState& card, const link::RobotFrame& robot) {
-  for (const link::ProcessSummary& one : robot.processes()) {
+  for (const link::ProcessStatus& one : robot.processes()) {
     const QString name = QString::fromStdString(one.name);
     if (one.state == link::ProcessState::GivenUp) {
       card.tagKind = TagKind::Error;
@@ -55,7 +56,7 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tagKind = TagKind::Warning;
       card.tag = QStringLiteral("%1 keeps real time").arg(name);
       card.tagTip = QStringLiteral("%1 %2 keeps real time: %3")
-                        .arg(card.name, name, QString::fromStdString(one.whyRealTime));
+                        .arg(card.name, name, QString::fromUtf8(link::whyRealTime(one.clock)));
     } else if (card.tag.isEmpty() && one.isTeamProgram && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {
       card.tagKind = TagKind::Warning;
@@ -93,12 +94,45 @@ QString linkTip(const link::RobotFrame& robot) {
           : QStringLiteral("%1 bad messages").arg(countText(link.errorCount)),
       link.loss ? QStringLiteral("%1 % lost").arg(numberText(*link.loss * 100, 1))
                 : QStringLiteral("Packet loss unknown: the messages have no sequence number")};
-  if (link.recoveries > 0) tip << QStringLiteral("Reconnected %1 times").arg(link.recoveries);
+  if (link.recoveries > 0) {
+    const QString times = link.recoveries == 1
+                              ? QStringLiteral("Was offline once")
+                              : QStringLiteral("Was offline %1 times").arg(link.recoveries);
+    tip << QStringLiteral("%1, for %2 altogether")
+               .arg(times, durationText(telemetry::secondsOf(link.offline)));
+  }
   if (!robot.poseKnown()) tip << QStringLiteral("No position in its messages");
   return tip.join(QLatin1Char('\n'));
 }
 
-void chooseTag(CardState& card, const link::RobotFrame& robot) {
+/// "chase.py", or "decision" of a process of ours.
+QString programName(const link::ProcessStatus& process) {
+  return QString::fromStdString(process.isTeamProgram ? process.program() : process.name);
+}
+
+/// A crash that nobody has looked at yet, although the program may run again.
+bool tagCrash(CardState& card, const link::RobotFrame& robot, const Crashes& seen) {
+  for (const link::ProcessStatus& one : robot.processes()) {
+    const auto known = seen.find(one.id);
+    if (one.deaths <= (known == seen.end() ? 0 : known->second)) continue;
+    const QString name = programName(one);
+    const QString crashed = one.deaths == 1 ? QStringLiteral("crashed")
+                                            : QStringLiteral("crashed %1 times").arg(one.deaths);
+    card.tagKind = TagKind::Error;
+    card.tag = name + QLatin1Char(' ') + crashed;
+    const QString process = QString::fromStdString(one.name);
+    card.tagTip =
+        QStringLiteral("%1 %2 %3%4 %5. Click the card to hide this.")
+            .arg(card.name, name == process ? name : QStringLiteral("%1 (%2)").arg(process, name),
+                 crashed,
+                 one.deaths == 1 ? QStringLiteral(" with") : QStringLiteral(", the last time with"),
+                 QString::fromStdString(one.lastDeath));
+    return true;
+  }
+  return false;
+}
+
+void chooseTag(CardState& card, const link::RobotFrame& robot, const Crashes& seen) {
   const auto put = [&card](TagKind kind, const QString& text) {
     card.tagKind = kind;
     card.tag = text;
@@ -110,8 +144,10 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
         QStringLiteral("TIMEOUT %1").arg(durationText(telemetry::secondsOf(robot.link->age))));
   } else if (robot.link && robot.link->conflict) {
     put(TagKind::Error, QStringLiteral("two senders"));
+  } else if (tagCrash(card, robot, seen)) {
+    return;
   } else if (robot.penalty) {
-    put(TagKind::Warning, penaltyTag(robot.penalty->text, robot.penalty->secondsLeft));
+    put(TagKind::Warning, penaltyTag(*robot.penalty));
   } else if (notResponding != card.lamps.end()) {
     const QLatin1Char letter(
         CardState::letters[static_cast<std::size_t>(notResponding - card.lamps.begin())]);
@@ -131,28 +167,6 @@ void chooseTag(CardState& card, const link::RobotFrame& robot) {
   } else {
     tagProcesses(card, robot);
   }
-}
-
-QString signedText(double value) {
-  return (value < 0.0 ? QString() : QStringLiteral("+")) + numberText(value, 2);
-}
-
-/// "strong kick +0.08"; empty while no advisor thinks for it.
-QString adviceOf(const link::RobotFrame& robot) {
-  if (!robot.advice || !robot.advice->isThinking) return {};
-  const std::string_view choice = link::adviceText(robot.advice->choice);
-  return QStringLiteral("%1 %2").arg(
-      QString::fromUtf8(choice.data(), static_cast<qsizetype>(choice.size())),
-      signedText(robot.advice->value));
-}
-
-/// A line of its own.
-QString adviceTip(const link::AdviceView& advice) {
-  return QStringLiteral(
-             "\nAdvisor: expected goal difference %1, %2 more than its behaviour, from %3 "
-             "rollouts")
-      .arg(signedText(advice.value), signedText(advice.gain))
-      .arg(advice.rollouts);
 }
 
 /// Under the names of the blackboard's variables; a dash for what the robot does not know.
@@ -204,17 +218,36 @@ QString CardState::process(std::size_t lamp) const {
 QString subtitleOf(const link::RobotFrame& robot) {
   QStringList parts;
   if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
-  if (!robot.behaviour.empty()) {
+  QStringList programs;
+  for (const link::ProcessStatus& one : robot.processes()) {
+    if (one.isTeamProgram) programs << programName(one);
+  }
+  programs.removeDuplicates();
+  if (!programs.isEmpty()) {
+    parts << programs.join(QStringLiteral(", "));
+  } else if (!robot.behaviour.empty()) {
     parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("team program")
                                                    : capitalised(robot.behaviour));
   }
   return parts.join(QStringLiteral(" · "));
 }
 
-CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
-                 const QString& detail) {
+namespace {
+
+/// What tells it from another robot with its number and colour; short.
+QString apartText(const link::RobotFrame& robot) {
+  if (robot.key.sender > 0) return QStringLiteral("(%1)").arg(robot.key.sender + 1);
+  if (!robot.link) return {};
+  const QString address = QString::fromStdString(robot.link->sender.address.text());
+  return address.mid(address.lastIndexOf(QLatin1Char('.')));
+}
+
+}  // namespace
+
+CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field, const QString& detail,
+                 const Crashes& seen) {
   CardState card;
-  card.id = robot.key;
+  card.id = robot.uid;
   card.team = robot.identity.team;
   card.number = robot.identity.number;
   card.name = QString::fromStdString(robot.name);
@@ -234,9 +267,10 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
   if (card.timedOut && !card.action.isEmpty()) {
     card.action = QStringLiteral("last: %1").arg(card.action);
   }
-  const QString advice = adviceOf(robot);
-  if (!advice.isEmpty()) card.action += adviceMark + advice;
   if (robot.link) {
+    if (robot.link->sender.address != telemetry::Address{}) {
+      card.address = QString::fromStdString(robot.link->sender.address.text());
+    }
     card.detail = linkText(*robot.link);
     card.detailTip = linkTip(robot);
     for (const link::ReceivedValue& value : robot.values) {
@@ -244,13 +278,15 @@ CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field,
                              QString::fromStdString(value.unit)});
     }
   } else {
-    card.detail =
-        detail + QStringLiteral(" · %1 m").arg(numberText(robot.statistics.distanceWalked, 1));
-    card.detailTip = QStringLiteral("Age of the tick shown; distance walked") + runsText(robot);
+    const QString walked =
+        QStringLiteral("%1 m").arg(numberText(robot.statistics.distanceWalked, 1));
+    card.detail = detail.isEmpty() ? walked : detail + QStringLiteral(" · ") + walked;
+    card.detailTip = (detail.isEmpty() ? QStringLiteral("Distance walked")
+                                       : QStringLiteral("Age of the tick shown; distance walked")) +
+                     runsText(robot);
     card.values = boardValues(robot, field);
   }
-  if (!advice.isEmpty()) card.detailTip += adviceTip(*robot.advice);
-  chooseTag(card, robot);
+  chooseTag(card, robot, seen);
   return card;
 }
 
@@ -267,17 +303,30 @@ std::vector<CardState> CardTracker::update(const link::MatchFrame& frame, qint64
       static_cast<double>(now - m_changed) + 500.0 / std::max(1.0, frame.settings->tickRate);
   m_age += smoothing * (age - m_age);
   // Age only matters when it grows; a small one would flicker.
-  const QString detail = frame.finished ? QStringLiteral("finished")
-                         : frame.paused ? QStringLiteral("paused")
-                                        : ageText(m_age);
+  // What was recorded has no age, whether it is played or not.
+  const bool isRecorded = frame.origin == link::FrameOrigin::Recorded;
+  const QString detail = isRecorded       ? QString()
+                         : frame.finished ? QStringLiteral("finished")
+                         : frame.paused   ? QStringLiteral("paused")
+                                          : ageText(m_age);
   std::vector<CardState> cards;
   cards.reserve(frame.robots.size());
   for (const link::RobotFrame& robot : frame.robots) {
-    CardState& card = cards.emplace_back(cardOf(robot, frame.settings->field, detail));
+    Crashes& crashes = m_crashes[robot.uid];
+    crashes.clear();
+    for (const link::ProcessStatus& one : robot.processes()) crashes[one.id] = one.deaths;
+    CardState& card =
+        cards.emplace_back(cardOf(robot, frame.settings->field, detail, m_seen[robot.uid]));
+    card.order = orderOf(robot.key, frame.teams);
     const auto place = static_cast<std::size_t>(robot.key.team);
     if (place < frame.teams.size()) {
       card.teamName = QString::fromStdString(frame.teams[place].name);
     }
+    const bool hasTwin = std::ranges::any_of(frame.robots, [&robot](const link::RobotFrame& other) {
+      return other.uid != robot.uid && other.identity.number == robot.identity.number &&
+             other.identity.team == robot.identity.team;
+    });
+    if (hasTwin) card.apart = apartText(robot);
   }
   return cards;
 }

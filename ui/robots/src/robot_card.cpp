@@ -60,11 +60,6 @@ void RobotCard::setCollapsed(bool collapsed) {
   update();
 }
 
-void RobotCard::collapse(bool collapsed) {
-  setCollapsed(collapsed);
-  emit collapsedByHand(collapsed);
-}
-
 QSize RobotCard::sizeHint() const {
   int height = 30;
   if (!m_collapsed) {
@@ -109,6 +104,7 @@ bool RobotCard::event(QEvent* event) {
 QString RobotCard::headTip() const {
   QStringList lines{m_state.name};
   if (!m_state.teamName.isEmpty()) lines.first() += QStringLiteral(" of %1").arg(m_state.teamName);
+  if (!m_state.address.isEmpty()) lines << QStringLiteral("Sends from %1").arg(m_state.address);
   if (!m_state.subtitle.isEmpty()) lines << m_state.subtitle;
   if (!m_state.runtime.isEmpty()) lines << QStringLiteral("Runs: %1").arg(m_state.runtime);
   if (m_state.battery) {
@@ -136,7 +132,7 @@ QString RobotCard::lampTip(int lamp) const {
 void RobotCard::mousePressEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return QFrame::mousePressEvent(event);
   if (chevronRect().contains(event->pos()))
-    collapse(!m_collapsed);
+    setCollapsed(!m_collapsed);
   else
     emit clicked(event->modifiers());
   m_pressed = event->pos();

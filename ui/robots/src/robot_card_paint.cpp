@@ -5,6 +5,7 @@
 #include <QPainterPath>
 #include <cmath>
 
+#include <ui/base/elide_text.h>
 #include <ui/base/quick_painting.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
@@ -156,7 +157,10 @@ void RobotCard::paintHead(QPainter& painter) const {
   }
   QRect name = row.adjusted(row.height() + scaled(this, 8), 0, 0, 0);
   name.setRight(end - scaled(this, 4));
-  drawTextLine(painter, name, Qt::AlignLeft | Qt::AlignVCenter, m_state.name, Qt::ElideRight);
+  const bool hasRoom = painter.fontMetrics().horizontalAdvance(m_state.name) <= name.width();
+  const QString& shownName =
+      m_collapsed && !hasRoom && !m_state.apart.isEmpty() ? m_state.apart : m_state.name;
+  drawTextLine(painter, name, Qt::AlignLeft | Qt::AlignVCenter, shownName, Qt::ElideRight);
   if (!m_collapsed && !m_state.subtitle.isEmpty()) {
     const int taken = painter.fontMetrics().horizontalAdvance(m_state.name) + scaled(this, 8);
     const QRect room(name.left() + taken, name.top(), end - name.left() - taken, name.height());
@@ -258,17 +262,12 @@ void RobotCard::paintFoot(QPainter& painter) const {
   painter.setFont(themeFont(TypeRole::Body));
   painter.setPen(m_state.timedOut ? theme().disabledText : theme().text);
   const QRect room = row.adjusted(0, 0, -taken, 0);
-  // Advice is left out as a whole, because its value says nothing without the text.
-  QString action = m_state.action;
-  if (painter.fontMetrics().horizontalAdvance(action) > room.width()) {
-    action = action.section(adviceMark, 0, 0);
-  }
-  drawTextLine(painter, room, Qt::AlignLeft | Qt::AlignVCenter, action, Qt::ElideRight);
+  drawTextLine(painter, room, Qt::AlignLeft | Qt::AlignVCenter, m_state.action, Qt::ElideRight);
 }
 
 const CardValue* RobotCard::value(const QString& name) const {
   for (const CardValue& known : m_state.values) {
-    if (isVariable(name, known.name)) return &known;
+    if (name == known.name) return &known;
   }
   return nullptr;
 }
@@ -281,9 +280,12 @@ void RobotCard::paintValues(QPainter& painter) const {
     const CardValue* known = value(m_parts.values[i]);
     const bool greyed = known == nullptr || m_state.timedOut;
     painter.setPen(theme().secondaryText);
-    drawTextLine(painter, QRect(row.topLeft(), QSize(row.width() * 6 / 10, row.height())),
-                 Qt::AlignLeft | Qt::AlignVCenter, known ? known->name : m_parts.values[i],
-                 Qt::ElideMiddle);
+    // The number is whole; the name has what is left.
+    const double taken =
+        known ? textLineWidth(painter.font(), known->text) + unitWidth + scaled(this, 6) : 0.0;
+    drawTextLine(painter, row, Qt::AlignLeft | Qt::AlignVCenter,
+                 elideName(QFontMetricsF(painter.font()), known ? known->name : m_parts.values[i],
+                           row.width() - taken));
     if (known == nullptr) continue;
     drawTextLine(painter, row.adjusted(row.width() - unitWidth + scaled(this, 4), 0, 0, 0),
                  Qt::AlignLeft | Qt::AlignVCenter, known->unit);

@@ -10,13 +10,14 @@
 #include <algorithm>
 
 #include <base/angles.h>
+#include <ui/base/floating_place.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/pose_difference.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 
@@ -57,9 +58,8 @@ RobotsDock::RobotsDock(const RobotsContext& context, QWidget* parent)
     if (isVisible() || !m_floating.empty()) refresh();
   };
   m_refresh = Beat::display().add(nullptr, least, refreshSeen, most);
-  connect(context.source, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
-  connect(context.source, &FrameSource::robotsRenamed, this, &RobotsDock::rename);
-  connect(context.source, &FrameSource::restarted, this, [this] {
+  connect(context.shown, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
+  connect(context.shown, &FrameSource::restarted, this, [this] {
     m_tracker.reset();
     refresh();
   });
@@ -71,7 +71,7 @@ QSize RobotsDock::sizeHint() const {
 }
 
 std::vector<CardState> RobotsDock::states() {
-  const FramePtr frame = m_context.source->frame();
+  const FramePtr frame = m_context.shown->frame();
   if (!frame) return {};
   std::vector<CardState> cards = m_tracker.update(*frame, m_clock.elapsed());
   const FramePtr other = m_context.overlay != nullptr ? m_context.overlay->other() : nullptr;
@@ -99,70 +99,66 @@ void RobotsDock::refresh() {
 
 void RobotsDock::showCards(const std::vector<CardState>& states) {
   m_empty->setVisible(states.empty());
-  if (states.empty()) m_empty->setText(m_context.source->emptyText());
+  if (states.empty()) m_empty->setText(m_context.shown->emptyText());
   for (auto known = m_cards.begin(); known != m_cards.end();) {
-    const RobotKey id = (known++)->first;
+    const RobotUid id = (known++)->first;
     if (std::any_of(states.begin(), states.end(), [id](const auto& s) { return s.id == id; })) {
       continue;
     }
-    delete m_cards[id];
-    m_cards.erase(id);
-    m_byHand.erase(id);
-    if (const auto window = m_floating.find(id); window != m_floating.end()) {
-      window->second->deleteLater();
-      m_floating.erase(window);
-    }
+    removeCard(id);
   }
-  collapseMany(states.size());
   bool isNew = false;
   for (const CardState& state : states) {
     RobotCard*& card = m_cards[state.id];
     if (card == nullptr) {
       card = makeCard();
+      card->setCollapsed(states.size() >= many);
       isNew = true;
     }
     card->setState(state);
+    m_places[state.id] = state.order;
     if (std::ranges::find(m_order, state.id) == m_order.end()) {
-      const auto isBehind = [&](const RobotKey& known) { return order(known) > order(state.id); };
+      const auto isBehind = [&](RobotUid known) { return m_places.at(known) > state.order; };
       m_order.insert(std::ranges::find_if(m_order, isBehind), state.id);
     }
   }
-  if (isNew) arrange();
+  if (sortCards() || isNew) arrange();
   showSelection();
 }
 
-RobotOrder RobotsDock::order(const RobotKey& robot) const {
-  const FramePtr frame = m_context.source->frame();
-  return orderOf(robot, frame ? frame->teams : link::Teams());
+/// Ours first, then by number, until somebody arranges them by hand. Returns whether one moved.
+bool RobotsDock::sortCards() {
+  const auto listed = [this](RobotUid robot) { return m_places.at(robot); };
+  if (m_isArranged || std::ranges::is_sorted(m_order, {}, listed)) return false;
+  std::ranges::stable_sort(m_order, {}, listed);
+  return true;
 }
 
-void RobotsDock::rename(const std::vector<Renaming>& renamings) {
-  pitchboard::rename(m_cards, renamings);
-  pitchboard::rename(m_floating, renamings);
-  pitchboard::rename(m_byHand, renamings);
-  for (RobotKey& key : m_order) key = pitchboard::renamed(key, renamings);
-}
-
-void RobotsDock::collapseMany(std::size_t robots) {
-  const bool isMany = robots >= many;
-  if (std::exchange(m_isMany, isMany) == isMany) return;
-  for (const auto& [id, card] : m_cards) {
-    if (!m_byHand.contains(id)) card->setCollapsed(isMany);
+void RobotsDock::removeCard(RobotUid robot) {
+  const auto card = m_cards.find(robot);
+  if (card == m_cards.end()) return;
+  delete card->second;
+  m_cards.erase(card);
+  if (!m_isArranged) {
+    std::erase(m_order, robot);
+    m_places.erase(robot);
+  }
+  if (const auto window = m_floating.find(robot); window != m_floating.end()) {
+    window->second->deleteLater();
+    m_floating.erase(window);
   }
 }
 
 RobotCard* RobotsDock::makeCard() {
   auto* card = new RobotCard(widget());
   card->setParts(m_parts);
-  card->setCollapsed(m_isMany);
-  connect(card, &RobotCard::collapsedByHand, this,
-          [this, card] { m_byHand.insert(card->state().id); });
   connect(card, &RobotCard::clicked, this, [this, card](Qt::KeyboardModifiers modifiers) {
     RobotSelection* selection = m_context.selection;
-    const RobotKey id = card->state().id;
-    const std::vector<RobotKey> ids =
-        modifiers & Qt::ControlModifier ? selection->toggled(id) : std::vector<RobotKey>{id};
-    // Whoever goes from card to card by keys stays there.
+    const RobotUid id = card->state().id;
+    m_tracker.looked(id);
+    const std::vector<RobotUid> ids =
+        modifiers & Qt::ControlModifier ? selection->toggled(id) : std::vector<RobotUid>{id};
+    // Keyboard focus stays on the card.
     if (card->hasFocus())
       selection->set(ids);
     else
@@ -177,7 +173,7 @@ RobotCard* RobotsDock::makeCard() {
 
 void RobotsDock::arrange() {
   int place = 0;
-  for (const RobotKey id : m_order) {
+  for (const RobotUid id : m_order) {
     const auto card = m_cards.find(id);
     if (card == m_cards.end() || m_floating.count(id) != 0) continue;
     m_column->removeWidget(card->second);
@@ -187,24 +183,25 @@ void RobotsDock::arrange() {
 
 QList<RobotCard*> RobotsDock::cards() const {
   QList<RobotCard*> listed;
-  for (const RobotKey id : m_order) {
+  for (const RobotUid id : m_order) {
     const auto card = m_cards.find(id);
     if (card != m_cards.end() && m_floating.count(id) == 0) listed.append(card->second);
   }
   return listed;
 }
 
-void RobotsDock::moveCard(RobotKey id, qsizetype place) {
+void RobotsDock::moveCard(RobotUid id, qsizetype place) {
   QList<RobotCard*> listed = cards();
-  std::vector<RobotKey> ids;
+  std::vector<RobotUid> ids;
   for (const RobotCard* card : listed) {
     if (card->state().id != id) ids.push_back(card->state().id);
   }
   const auto at = std::clamp<qsizetype>(place, 0, static_cast<qsizetype>(ids.size()));
-  const RobotKey before =
-      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotKey{};
+  const RobotUid before =
+      at < static_cast<qsizetype>(ids.size()) ? ids[static_cast<std::size_t>(at)] : RobotUid{};
   std::erase(m_order, id);
   m_order.insert(std::find(m_order.begin(), m_order.end(), before), id);
+  m_isArranged = true;
   arrange();
 }
 
@@ -250,19 +247,19 @@ void RobotsDock::showDropMark(qsizetype place) {
 void RobotsDock::drop(RobotCard* card, const QPoint& at) {
   unsetCursor();
   m_dropMark->hide();
-  const RobotKey id = card->state().id;
+  const RobotUid id = card->state().id;
   if (m_floating.count(id) != 0) return;
   if (viewport()->rect().contains(viewport()->mapFromGlobal(at))) return;
   floatCard(id);
   if (QDockWidget* window = floating(id)) window->move(at);
 }
 
-QDockWidget* RobotsDock::floating(RobotKey id) const {
+QDockWidget* RobotsDock::floating(RobotUid id) const {
   const auto window = m_floating.find(id);
   return window == m_floating.end() ? nullptr : window->second;
 }
 
-void RobotsDock::floatCard(RobotKey id) {
+void RobotsDock::floatCard(RobotUid id) {
   const auto card = m_cards.find(id);
   // Not window(): while this panel floats, that is its dock.
   QMainWindow* main = nullptr;
@@ -271,7 +268,7 @@ void RobotsDock::floatCard(RobotKey id) {
   }
   if (card == m_cards.end() || m_floating.count(id) != 0 || main == nullptr) return;
   auto* dock = new QDockWidget(card->second->state().name, main);
-  dock->setObjectName(QStringLiteral("card-%1-%2-%3").arg(id.team).arg(id.number).arg(id.sender));
+  dock->setObjectName(QStringLiteral("card-%1").arg(id.value));
   m_column->removeWidget(card->second);
   dock->setWidget(card->second);
   dock->installEventFilter(this);
@@ -279,6 +276,7 @@ void RobotsDock::floatCard(RobotKey id) {
   main->addDockWidget(Qt::LeftDockWidgetArea, dock);
   dock->setFloating(true);
   dock->adjustSize();
+  moveBesideTools(dock);
   dock->show();
   card->second->show();
 }
@@ -294,7 +292,7 @@ bool RobotsDock::eventFilter(QObject* watched, QEvent* event) {
   return QScrollArea::eventFilter(watched, event);
 }
 
-void RobotsDock::unfloat(RobotKey id) {
+void RobotsDock::unfloat(RobotUid id) {
   QDockWidget* dock = m_floating.at(id);
   m_floating.erase(id);
   RobotCard* card = m_cards.at(id);
@@ -309,10 +307,7 @@ void RobotsDock::showSelection() {
 }
 
 void RobotsDock::setAllCollapsed(bool collapsed) {
-  for (const auto& [id, card] : m_cards) {
-    card->setCollapsed(collapsed);
-    m_byHand.insert(id);
-  }
+  for (const auto& [id, card] : m_cards) card->setCollapsed(collapsed);
 }
 
 QWidget* makeRobotsDock(const RobotsContext& context, QWidget* parent) {

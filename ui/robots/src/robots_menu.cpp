@@ -4,6 +4,8 @@
 #include <QSettings>
 #include <algorithm>
 
+#include <telemetry/wire/meanings.h>
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/robots/robots_dock.h>
@@ -12,7 +14,7 @@
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_menus.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -37,7 +39,10 @@ void RobotsDock::loadParts() {
   const QStringList hidden = m_context.settings->value(hiddenKey).toStringList();
   for (const Part& part : cardParts)
     m_parts.*part.shown = !hidden.contains(QLatin1String(part.key));
-  m_parts.values = m_context.settings->value(valuesKey).toStringList();
+  for (const QString& name : m_context.settings->value(valuesKey).toStringList()) {
+    m_parts.values << QString::fromStdString(
+        std::string(telemetry::presentName(name.toStdString())));
+  }
 }
 
 void RobotsDock::setParts(const CardParts& parts) {
@@ -53,9 +58,9 @@ void RobotsDock::setParts(const CardParts& parts) {
 }
 
 void RobotsDock::addMatchActions(QMenu& menu, RobotCard* card) {
-  const RobotKey id = card->state().id;
+  const RobotUid id = card->state().id;
   MatchController* controller = m_context.controller;
-  const FramePtr frame = m_context.source->frame();
+  const FramePtr frame = m_context.shown->frame();
   const auto robots = frame ? frame->slotsOf({id}) : std::vector<RobotId>();
   if (robots.empty() || controller->edits()->robot(robots.front()) == nullptr) return;
   addRobotMenus(&menu, controller, robots);
@@ -75,10 +80,10 @@ void RobotsDock::addCardActions(QMenu& menu) {
   QMenu* own = menu.addMenu(QStringLiteral("Cards"));
   if (!listed.isEmpty()) addPartActions(*own, listed.front());
   addListActions(*own);
-  for (const RobotKey id : m_context.selection->ids()) {
+  for (const RobotUid id : m_context.selection->ids()) {
     const auto card = m_cards.find(id);
     if (card == m_cards.end()) continue;
-    if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
+    if (m_context.live != nullptr && m_context.shown->source() == m_context.live) {
       addForgetting(menu, card->second);
     }
     if (m_floating.count(id) != 0) continue;
@@ -88,7 +93,7 @@ void RobotsDock::addCardActions(QMenu& menu) {
 }
 
 void RobotsDock::addForgetting(QMenu& menu, RobotCard* card) {
-  const RobotKey id = card->state().id;
+  const RobotUid id = card->state().id;
   QAction* forget = menu.addAction(themedIcon(QStringLiteral("edit-delete")),
                                    QStringLiteral("Forget %1").arg(card->state().name),
                                    m_context.live, [this, id] { m_context.live->forget(id); });
@@ -100,7 +105,7 @@ void RobotsDock::addListActions(QMenu& menu) {
   menu.addAction(QStringLiteral("Collapse all"), this, [this] { setAllCollapsed(true); });
   menu.addAction(QStringLiteral("Expand all"), this, [this] { setAllCollapsed(false); });
   menu.addAction(QStringLiteral("Order by number"), this, [this] {
-    std::ranges::sort(m_order, {}, [this](const RobotKey& robot) { return order(robot); });
+    std::ranges::sort(m_order, {}, [this](RobotUid robot) { return m_places.at(robot); });
     arrange();
   });
 }
@@ -121,37 +126,35 @@ void RobotsDock::addPartActions(QMenu& menu, RobotCard* card) {
   QStringList names;
   for (const CardValue& value : card->state().values) names << value.name;
   for (const QString& name : m_parts.values) {
-    const auto isIt = [&name](const QString& known) { return isVariable(name, known); };
-    if (std::ranges::none_of(names, isIt)) names << name;
+    if (!names.contains(name)) names << name;
   }
   for (const QString& name : names) {
     QAction* action = show->addAction(name);
     action->setCheckable(true);
-    const auto isShown = [name](const QString& saved) { return isVariable(saved, name); };
-    action->setChecked(std::ranges::any_of(m_parts.values, isShown));
-    connect(action, &QAction::toggled, this, [this, name, isShown](bool on) {
+    action->setChecked(m_parts.values.contains(name));
+    connect(action, &QAction::toggled, this, [this, name](bool on) {
       CardParts changed = m_parts;
       if (on)
         changed.values << name;
       else
-        changed.values.removeIf(isShown);
+        changed.values.removeAll(name);
       setParts(changed);
     });
   }
 }
 
 void RobotsDock::showMenu(RobotCard* card, const QPoint& at) {
-  const RobotKey id = card->state().id;
+  const RobotUid id = card->state().id;
   const auto& selected = m_context.selection->ids();
   if (std::ranges::find(selected, id) == selected.end()) m_context.selection->set({id});
   QMenu menu(this);
-  if (m_context.source->kind() == SourceKind::Simulate) {
+  if (m_context.shown->kind().canBeEdited) {
     addMatchActions(menu, card);
     if (m_context.controller->edits()->isLocked()) {
-      for (QAction* change : menu.actions()) change->setEnabled(false);
+      for (QAction* change : menu.actions()) enableUnless(*change, MatchEdits::lockedText());
     }
   }
-  if (m_context.source->kind() == SourceKind::Live && m_context.live != nullptr) {
+  if (m_context.live != nullptr && m_context.shown->source() == m_context.live) {
     addForgetting(menu, card);
     menu.addSeparator();
   }

@@ -7,7 +7,6 @@
 #include <QDesktopServices>
 #include <QDialogButtonBox>
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
 #include <QHBoxLayout>
@@ -22,6 +21,7 @@
 
 #include <base/file_target.h>
 #include <ui/base/dialog_size.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
 #include <ui/sources/field_pictures.h>
@@ -89,10 +89,10 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.title));
   for (const QSize size :
        {QSize(1280, 720), QSize(1920, 1080), QSize(640, 360), QSize(3840, 2160)}) {
-    m_size->addItem(QStringLiteral("%1 × %2").arg(size.width()).arg(size.height()), size);
+    const QSize made = m_pictures != nullptr ? m_pictures->pictureSize(size) : size;
+    m_size->addItem(QStringLiteral("%1 × %2").arg(made.width()).arg(made.height()), size);
   }
-  m_size->setToolTip(
-      QStringLiteral("The picture keeps the shape of the field and fits into this size."));
+  m_size->setToolTip(QStringLiteral("The picture has the shape of the field."));
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" frames per second"));
@@ -176,18 +176,35 @@ void ExportDialog::showRows() {
                            std::max(sizeHint().height(), layout()->heightForWidth(width()))));
 }
 
+QByteArray ExportDialog::picture() const {
+  switch (form().kind) {
+    case ExportKind::Png:
+    case ExportKind::Svg:
+      return m_pictures->pictureFile(m_size->currentData().toSize(),
+                                     suffix().mid(1));  // without its dot
+    case ExportKind::Report:
+      return m_pictures->pictureFile({1040, 740}, QStringLiteral("png"));
+    default:
+      return {};
+  }
+}
+
 void ExportDialog::ask() {
-  const QDir folder(m_source.folder);
-  QString path = QFileDialog::getSaveFileName(this, QStringLiteral("Export"),
-                                              folder.filePath(m_source.name + suffix()));
+  const QByteArray now = picture();  // the match goes on behind the dialog
+  QString path = askToSave(this, QStringLiteral("Export"), m_source.name + suffix());
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += suffix();
-  exportTo(path);
+  begin(path, now);
 }
 
 void ExportDialog::exportTo(const QString& path) {
+  begin(path, picture());
+}
+
+void ExportDialog::begin(const QString& path, const QByteArray& picture) {
   if (m_writing) return;
   m_cancelled = false;
+  m_picture = picture;
   const ExportForm& chosen = form();
   if (chosen.kind == ExportKind::Png || chosen.kind == ExportKind::Svg) {
     writePicture(path);
@@ -236,11 +253,7 @@ void ExportDialog::write(const ExportRequest& request) {
     writeVideo(request);
     return;
   }
-  QByteArray picture;
-  if (form().kind == ExportKind::Report) {
-    picture = m_pictures->pictureFile({1040, 740}, QStringLiteral("png"));
-  }
-  m_worker.start([this, request, chosen = form(), picture] {
+  m_worker.start([this, request, chosen = form(), picture = m_picture] {
     const auto done = writeExport(request, chosen, picture, [this](double part) {
       m_toUi.post([this, part] { m_progress->setValue(static_cast<int>(part * 1000)); });
       return !m_cancelled;
@@ -274,7 +287,6 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   options.path = request.path;
   options.size = m_pictures->pictureSize(m_size->currentData().toSize());
   options.framesPerSecond = m_rate->value();
-  options.program = m_program;
   options.overwrite = true;
   const auto range = request.selection.range;
   if (const auto started = m_video->start(request.session, {range.begin, range.end},
@@ -286,11 +298,9 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
 }
 
 void ExportDialog::writePicture(const QString& path) {
-  const QByteArray bytes = m_pictures->pictureFile(m_size->currentData().toSize(),
-                                                   suffix().mid(1));  // without its dot
-  const auto written =
-      writeFile(path.toStdString(), {bytes.constData(), static_cast<std::size_t>(bytes.size())},
-                IfExists::Replace, m_source.session.toStdString());
+  const auto written = writeFile(
+      path.toStdString(), {m_picture.constData(), static_cast<std::size_t>(m_picture.size())},
+      IfExists::Replace, m_source.session.toStdString());
   if (!written) {
     fail(QStringLiteral("Export failed: %1").arg(QString::fromStdString(written.error().text())));
     return;
@@ -354,7 +364,7 @@ std::vector<std::string> textsOf(const QStringList& names) {
 
 void ExportDialog::makeChoices() {
   m_lines->setObjectName(QStringLiteral("exportLines"));
-  m_lines->setRange(0.001, telemetry::Resampling::mostPerSecond);
+  m_lines->setRange(0.001, telemetry::Resampling::maxPerSecond);
   m_lines->setDecimals(3);
   m_lines->setValue(telemetry::Resampling{}.rate);
   m_lines->setSuffix(QStringLiteral(" per second"));
@@ -419,7 +429,7 @@ bool ExportDialog::takeChoices(telemetry::ExportSelection& selection) {
   if (!m_robots->isAllChecked()) selection.robots = textsOf(robots);
   if (!numbers) return true;
   if (!m_variables->isAllChecked()) {
-    // Those that the ticked robots have.
+    // The variables of the ticked robots.
     QStringList known;
     for (const auto& group : m_source.groups) {
       if (!robots.contains(QString::fromStdString(group.name))) continue;

@@ -4,9 +4,9 @@
 #include <QFileInfo>
 #include <QtGlobal>
 
+#include <base/try.h>
 #include <robotlink/report/report.h>
 #include <robotlink/session/live_moments.h>
-#include <robotlink/session/session_choice.h>
 #include <robotlink/session/session_events.h>
 
 namespace pitchboard::ui {
@@ -35,7 +35,7 @@ Result<std::uint64_t> writeReport(const telemetry::SessionReader& session,
   content.title = content.session.title;
   content.statistics = link::statisticsOf(session, {range.begin, range.end});
   content.events = link::eventsOf(session);
-  link::keepRobots(content, request.selection.robots);
+  link::keepRobots(content, TRY(link::RobotChoice::of(session, request.selection.robots)));
   content.picture = picture.toStdString();
   content.notes = session.notes();
   const auto done = link::writeReport(request.path.toStdString(), content, IfExists::Replace,
@@ -56,7 +56,7 @@ Result<std::uint64_t> writeExport(const ExportRequest& request, const ExportForm
   if (form.format == ExportFormat::Mcap) {
     selection.opening = link::openingAt(*session, selection.range.begin);
   }
-  link::chooseRobots(*session, form.format, selection);
+  TRY(link::chooseRobots(*session, form.format, selection));
   const auto report = telemetry::exportFile(
       *session, form.format, selection, request.path.toStdString(), progress, IfExists::Replace);
   if (!report) return tl::unexpected(report.error());

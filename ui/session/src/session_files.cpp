@@ -2,11 +2,12 @@
 #include <ui/session/session_files.h>
 
 #include <QDragEnterEvent>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMimeData>
+#include <utility>
 
 #include <telemetry/session/session_repair.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
@@ -14,8 +15,9 @@
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
+
+#include "recording_import.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -24,8 +26,10 @@ const QString suffix = QStringLiteral("mcap");
 
 QString droppedSession(const QMimeData* data) {
   for (const QUrl& url : data->urls()) {
-    if (url.isLocalFile() && QFileInfo(url.toLocalFile()).suffix().toLower() == suffix) {
-      return url.toLocalFile();
+    if (!url.isLocalFile()) continue;
+    const QString path = url.toLocalFile();
+    if (QFileInfo(path).suffix().toLower() == suffix || RecordingImport::isOfOthers(path)) {
+      return path;
     }
   }
   return {};
@@ -35,12 +39,20 @@ QString droppedSession(const QMimeData* data) {
 const QString openTopic = QStringLiteral("session"), repairTopic = QStringLiteral("repair"),
               repairedTopic = QStringLiteral("repaired"),
               contentTopic = QStringLiteral("session content"),
+              notesTopic = QStringLiteral("session notes"), importTopic = QStringLiteral("import"),
               simulateTopic = QStringLiteral("simulate from here");
 
 QString brokenText(const QString& path) {
   return QStringLiteral(
              "%1 is truncated or damaged. The readable part is shown. You can repair it into a new "
              "file.")
+      .arg(QFileInfo(path).fileName());
+}
+
+QString growingText(const QString& path) {
+  return QStringLiteral(
+             "%1 is still being recorded. You see what was recorded until now; open it again for "
+             "the rest.")
       .arg(QFileInfo(path).fileName());
 }
 
@@ -55,29 +67,52 @@ QString repairedName(const QString& path) {
 }  // namespace
 
 SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller,
-                           SourceSwitch* source, Timeline* timeline, NoticeBar* notices,
-                           QWidget* window)
+                           ShownMoment* shown, NoticeBar* notices, QWidget* window)
     : QObject(window),
       m_replay(replay),
       m_controller(controller),
-      m_source(source),
-      m_timeline(timeline),
+      m_shown(shown),
       m_notices(notices),
-      m_window(window) {
+      m_window(window),
+      m_import(new RecordingImport(window)) {
   window->setAcceptDrops(true);
   window->installEventFilter(this);
   // What is told of one file goes with it.
   connect(replay, &ReplayController::restarted, this, [this] {
-    for (const QString& topic : {openTopic, repairTopic, contentTopic}) m_notices->settle(topic);
+    for (const QString& topic : {openTopic, repairTopic, contentTopic, notesTopic})
+      m_notices->settle(topic);
   });
-  connect(replay, &ReplayController::failed, this,
-          [this](const QString& sentence) { m_notices->show({openTopic}, sentence); });
+  connect(replay, &ReplayController::failed, this, [this](const QString& sentence) {
+    m_before.clear();
+    m_notices->show({openTopic}, sentence);
+  });
+  connect(replay, &ReplayController::foreignFound, m_import, &RecordingImport::start);
+  connect(m_import, &RecordingImport::imported, this, &SessionFiles::showImported);
+  connect(m_import, &RecordingImport::failed, this,
+          [this](const QString& sentence) { m_notices->show({importTopic}, sentence); });
+  connect(shown, &ShownMoment::bookmarked, this, [this](const link::MatchEvent& event) {
+    if (m_shown->source() == m_replay) m_replay->keepBookmark(event);
+  });
+  connect(replay, &ReplayController::notKept, this,
+          [this](const QString& sentence) { m_notices->show({notesTopic}, sentence); });
   connect(replay, &ReplayController::opened, this, [this] {
-    m_source->choose(m_replay);
+    const QString before = std::exchange(m_before, QString());
+    if (!before.isEmpty() && before != m_replay->path()) emit replaced();
+    m_shown->choose(m_replay);
     showTitle();
     if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
+    if (m_replay->isGrowing()) m_notices->show({contentTopic}, growingText(m_replay->path()));
   });
-  connect(source, &SourceSwitch::restarted, this, &SessionFiles::showTitle);
+  connect(shown, &ShownMoment::restarted, this, &SessionFiles::showTitle);
+  // They would be taken for the match, or for what is received.
+  connect(shown, &ShownMoment::sourceChosen, this, [this] {
+    const bool isShown = m_shown->source() == m_replay;
+    if (!isShown) {
+      for (const QString& topic : {openTopic, repairTopic, contentTopic}) m_notices->settle(topic);
+      return;
+    }
+    if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
+  });
   connect(replay, &ReplayController::damageFound, this, [this](const QStringList& sentences) {
     offerRepair(QStringLiteral("Part of %1 is damaged; the rest is shown. %2")
                     .arg(QFileInfo(m_replay->path()).fileName(), shortened(sentences)));
@@ -86,6 +121,9 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
     // The offer must not wait behind the reason for it.
     if (m_replay->isBroken())
       offerRepair(brokenText(m_replay->path()) + QLatin1Char(' ') + shortened(sentences));
+    else if (m_replay->isGrowing())
+      m_notices->show({contentTopic},
+                      growingText(m_replay->path()) + QLatin1Char(' ') + shortened(sentences));
     else
       m_notices->show({contentTopic}, shortened(sentences));
   });
@@ -98,7 +136,7 @@ SessionFiles::~SessionFiles() {
 
 void SessionFiles::showTitle() {
   const QString file =
-      m_source->current() == m_replay ? QFileInfo(m_replay->path()).fileName() : QString();
+      m_shown->source() == m_replay ? QFileInfo(m_replay->path()).fileName() : QString();
   const QString program = QStringLiteral("Pitchboard");
   m_window->setWindowTitle(file.isEmpty() ? program : QStringLiteral("%1 — %2").arg(file, program));
 }
@@ -117,8 +155,23 @@ void SessionFiles::offerRepair(const QString& sentence) {
                    {QStringLiteral("Not now"), {}}});
 }
 
+void SessionFiles::showImported(const QString& recording, const QString& session,
+                                const QStringList& notes) {
+  QString text = QStringLiteral(
+                     "%1 was imported. The session is temporary: keep it with "
+                     "File > Export.")
+                     .arg(QFileInfo(recording).fileName());
+  if (!notes.isEmpty()) text += QLatin1Char(' ') + shortened(notes);
+  m_notices->show({importTopic}, text);
+  m_before = m_replay->path();
+  m_replay->open(session);
+}
+
 void SessionFiles::open(const QString& path) {
   m_notices->settle(repairedTopic);
+  m_notices->settle(importTopic);
+  if (RecordingImport::isOfOthers(path)) return m_import->start(path);
+  m_before = m_replay->path();
   m_replay->open(path);
 }
 
@@ -128,16 +181,17 @@ void SessionFiles::askAndOpen() {
 }
 
 QString SessionFiles::askForFile(const QString& title) {
-  return QFileDialog::getOpenFileName(m_window, title, {},
-                                      QStringLiteral("Sessions (*.mcap);;All files (*)"));
+  return askToOpen(m_window, title, QStringLiteral("Sessions (*.mcap);;All files (*)"));
 }
 
 void SessionFiles::repair(const QString& path) {
   const QString to = repairedName(path);
+  ++m_repairs;
   m_worker.start([this, path, to] {
     const auto report = telemetry::repairSession(path.toStdString(), to.toStdString(),
                                                  [this](double) { return !m_cancelled; });
     m_toUi.post([this, report, to] {
+      --m_repairs;
       if (!report) {
         m_notices->show({repairTopic}, QStringLiteral("Could not repair the session: %1")
                                            .arg(QString::fromStdString(report.error().text())));
@@ -177,7 +231,7 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
-  const FramePtr frame = m_source->frame();
+  const FramePtr frame = m_shown->frame();
   if (!frame || frame->robots.empty()) {
     m_notices->show({simulateTopic},
                     QStringLiteral("Cannot simulate from here: no robot is on the field."));
@@ -188,11 +242,11 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
   options.catalog = &m_controller->catalog();
   options.ball = poses == link::MomentOptions::Poses::True ? link::MomentOptions::Ball::True
                                                            : link::MomentOptions::Ball::Perceived;
-  const auto base = scenarioBehind(*m_source, *m_controller, *m_replay);
+  const auto base = scenarioBehind(*m_shown, *m_controller, *m_replay);
   if (base) options.base = &*base;
   const link::MomentScenario moment = link::scenarioFromMoment(*frame, options);
-  m_timeline->goLive();
-  m_source->choose(m_controller);
+  m_shown->goLive();
+  m_shown->choose(m_controller);
   const QString when = clockText(frame->snapshot.time);
   m_controller->edits()->replaceMatch(moment.scenario, QStringLiteral("Simulate from %1").arg(when),
                                       QStringLiteral("Simulating from %1").arg(when), false);
@@ -203,10 +257,10 @@ void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
 }
 
 void SessionFiles::continueFromHere() {
-  if (m_source->kind() != SourceKind::Simulate || !m_timeline->isLookingBack()) return;
-  const double time = m_timeline->shownTime();
+  if (!m_shown->kind().mayBeContinued || !m_shown->isLookingBack()) return;
+  const double time = m_shown->time();
   m_controller->memory()->continueFrom(time);
-  m_timeline->goLive();
+  m_shown->goLive();
 }
 
 }  // namespace pitchboard::ui

@@ -22,8 +22,13 @@ struct VideoExport::Reader {
         problem = opened.error().text();
         return nullptr;
       }
+      const auto chosen = link::RobotChoice::of(*opened, robots);
+      if (!chosen) {
+        problem = chosen.error().text();
+        return nullptr;
+      }
       session.emplace(std::move(*opened));
-      frames.emplace(link::backdropOf(*session), robots);
+      frames.emplace(link::backdropOf(*session), *chosen);
     }
     return std::make_shared<link::MatchFrame>(frames->frameAt(*session, time));
   }

@@ -10,8 +10,8 @@
 namespace pitchboard::ui {
 namespace {
 
-constexpr qint64 mostWaiting = qint64{64} << 20;  // bytes in the pipe's buffer
-constexpr qsizetype mostOutput = 16384;           // bytes of ffmpeg's complaints that are kept
+constexpr qint64 maxWaiting = qint64{64} << 20;  // bytes in the pipe's buffer
+constexpr qsizetype maxOutput = 16384;           // bytes of ffmpeg's complaints that are kept
 
 struct Format {
   QLatin1String suffix;
@@ -79,7 +79,7 @@ VideoWriter::VideoWriter(QObject* parent) : QObject(parent) {
   });
   connect(&m_process, &QProcess::readyReadStandardError, this, [this] {
     m_output += m_process.readAllStandardError();
-    if (m_output.size() > mostOutput) m_output = m_output.right(mostOutput);
+    if (m_output.size() > maxOutput) m_output = m_output.right(maxOutput);
   });
   connect(&m_process, &QProcess::finished, this, &VideoWriter::onFinished);
   connect(&m_process, &QProcess::errorOccurred, this, &VideoWriter::onError);
@@ -158,7 +158,7 @@ Result<void> VideoWriter::start(const VideoOptions& options) {
 }
 
 bool VideoWriter::ready() const {
-  return m_active && !m_ending && m_process.bytesToWrite() < mostWaiting;
+  return m_active && !m_ending && m_process.bytesToWrite() < maxWaiting;
 }
 
 void VideoWriter::add(const QImage& picture) {

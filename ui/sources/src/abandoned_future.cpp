@@ -5,18 +5,12 @@
 
 #include <ui/base/robot_text.h>
 #include <ui/sources/event_list.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 
-AbandonedFuture::AbandonedFuture(MatchController* match, SourceSwitch* source, Timeline* timeline,
-                                 QObject* parent)
-    : QObject(parent),
-      m_match(match),
-      m_source(source),
-      m_timeline(timeline),
-      m_events(new EventList(this)) {
+AbandonedFuture::AbandonedFuture(MatchController* match, ShownMoment* shown, QObject* parent)
+    : QObject(parent), m_match(match), m_shown(shown), m_events(new EventList(this)) {
   connect(match->memory(), &MatchMemory::branched, this, [this](const MatchBranch& left) {
     const auto range = left.rows->range();
     if (!range || range->end <= left.from) return;
@@ -31,15 +25,15 @@ AbandonedFuture::AbandonedFuture(MatchController* match, SourceSwitch* source, T
   });
   connect(match, &FrameSource::restarted, this, &AbandonedFuture::drop);
   connect(match, &FrameSource::frameReceived, this, &AbandonedFuture::keepBudget);
-  connect(source, &SourceSwitch::changed, this, [this] {
+  connect(shown, &ShownMoment::sourceChosen, this, [this] {
     emit changed();
     showMoment();
   });
-  connect(timeline, &Timeline::moved, this, &AbandonedFuture::showMoment);
+  connect(shown, &ShownMoment::moved, this, &AbandonedFuture::showMoment);
 }
 
 bool AbandonedFuture::isOn() const {
-  return m_left.rows && m_source->kind() == SourceKind::Simulate;
+  return m_left.rows && m_shown->source() == m_match;
 }
 
 std::shared_ptr<const telemetry::SeriesStore> AbandonedFuture::series() const {
@@ -77,7 +71,7 @@ void AbandonedFuture::keepBudget() {
 void AbandonedFuture::showMoment() {
   if (!m_compared) return;
   const FramePtr now = m_match->frame();
-  const double time = m_timeline->shownTime();
+  const double time = m_shown->time();
   if (!isOn() || !now || time < m_left.from || time > m_end) {
     emit momentReached(nullptr);
     return;

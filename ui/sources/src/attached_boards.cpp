@@ -9,17 +9,17 @@
 #include <ui/sources/live_settings.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 
-AttachedBoards::AttachedBoards(MatchController* match, LiveController* live, SourceSwitch* source,
+AttachedBoards::AttachedBoards(MatchController* match, LiveController* live, ShownMoment* shown,
                                QSettings* settings, QObject* parent)
-    : QObject(parent), m_match(match), m_live(live), m_source(source), m_settings(settings) {
+    : QObject(parent), m_match(match), m_live(live), m_shown(shown), m_settings(settings) {
   connect(match, &MatchController::restarted, this, &AttachedBoards::followMatch);
   connect(live, &LiveController::optionsChanged, this, &AttachedBoards::setBesideMatch);
   connect(&m_take, &QTimer::timeout, this, [this] {
-    m_robots->takeRows([this](const auto& group, auto rows) { m_rows->take(group, rows); });
+    m_robots->drainRows([this](const auto& group, auto rows) { m_rows->take(group, rows); });
   });
   followMatch();
 }
@@ -50,11 +50,11 @@ void AttachedBoards::use(const std::vector<link::AttachedBoard>& boards) {
   link::LiveOptions options = m_live->options();
   options.boards = boards;
   m_live->setOptions(options);
-  if (m_settings != nullptr) saveAttachedBoards(*m_settings, boards);
+  if (m_settings != nullptr) saveLiveOption(*m_settings, "boards", options);
 }
 
 std::vector<link::AttachedStatus> AttachedBoards::status() const {
-  const bool besideMatch = m_robots && m_source->kind() == SourceKind::Simulate;
+  const bool besideMatch = m_robots && m_shown->source() == m_match;
   const bool isRead = besideMatch || m_live->isListening();
   const auto known = besideMatch ? m_robots->status() : m_live->details().boards;
   std::vector<link::AttachedStatus> all;

@@ -3,24 +3,23 @@
 
 #include <QFileInfo>
 
-#include <ui/sources/playback.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "event_collector.h"
 
 namespace pitchboard::ui {
 
-ComparedSession::ComparedSession(Timeline* timeline, QObject* parent)
-    : QObject(parent), m_timeline(timeline), m_events(new EventCollector(&m_file)) {
-  connect(timeline, &Timeline::moved, this, &ComparedSession::showMoment);
-  connect(timeline, &Timeline::sourceChanged, this, [this] {
+ComparedSession::ComparedSession(ShownMoment* shown, QObject* parent)
+    : QObject(parent), m_shown(shown), m_events(new EventCollector(&m_file)) {
+  connect(shown, &ShownMoment::moved, this, &ComparedSession::showMoment);
+  connect(shown, &ShownMoment::sourceChanged, this, [this] {
     m_here.reset();
     showMoment();
   });
-  connect(timeline, &Timeline::lookingBackChanged, this, &ComparedSession::showMoment);
+  connect(shown, &ShownMoment::lookingBackChanged, this, &ComparedSession::showMoment);
   connect(&m_file, &ReplayController::frameReceived, this, [this](const FramePtr& frame) {
-    const double there = m_timeline->shownTime() - m_offset;
-    const auto range = m_file.playback()->range();
+    const double there = m_shown->time() - m_offset;
+    const auto range = m_file.available();
     // A moment that comes late: what is shown has gone on beyond the session.
     const bool inside = range && there >= range->begin - 1e-6 && there <= range->end + 1e-6;
     emit momentReached(inside ? frame : nullptr);
@@ -81,8 +80,8 @@ void ComparedSession::alignByTime() {
 }
 
 double ComparedSession::offsetByTime() const {
-  const auto here = m_timeline->available();
-  const auto there = m_file.playback()->range();
+  const auto here = m_shown->available();
+  const auto there = m_file.available();
   if (!here || !there || m_file.info().source != "live") return 0.0;
   return here->begin - there->begin;
 }
@@ -102,17 +101,17 @@ QString ComparedSession::caption() const {
 
 void ComparedSession::showMoment() {
   if (!isOn()) return;
-  const auto range = m_file.playback()->range();
-  const double there = m_timeline->shownTime() - m_offset;
+  const auto range = m_file.available();
+  const double there = m_shown->time() - m_offset;
   if (!range || there < range->begin || there > range->end) {
     emit momentReached(nullptr);
     return;
   }
-  if (there == m_file.playback()->position()) {
+  if (there == m_file.standsAt()) {
     emit momentReached(m_file.frame());
     return;
   }
-  m_file.playback()->seek(there);
+  m_file.standAt(there);
 }
 
 }  // namespace pitchboard::ui

@@ -12,9 +12,31 @@ constexpr double maximumSpan = 1e7;  // s; a season of matches
 
 using telemetry::TimeRange;
 
+LinkedTime::LinkedTime(ShownMoment* shown, QObject* parent) : QObject(parent), m_shown(shown) {
+  constexpr Beat::Milliseconds often{100};
+  m_refresh = Beat::display().add(nullptr, often, [this] { refresh(); });
+  const auto refreshSoon = [this] { m_refresh->want(); };
+  connect(shown, &FrameSource::frameReceived, this, refreshSoon);
+  connect(shown, &ShownMoment::newestChanged, this, refreshSoon);
+  connect(shown, &FrameSource::rowsAppended, this, refreshSoon);
+  connect(shown, &FrameSource::rowsCame, this, &LinkedTime::refresh);
+  connect(shown, &FrameSource::rewound, this, &LinkedTime::rewind);
+  connect(shown, &FrameSource::restarted, this, [this] { setFollowing(true); });
+  connect(shown, &ShownMoment::moved, this, &LinkedTime::takeMoment);
+  connect(shown, &ShownMoment::lookingBackChanged, this, &LinkedTime::takeMoment);
+  connect(shown, &ShownMoment::sourceChanged, this, [this] {
+    refresh();
+    takeMoment();
+    leaveForeignRange();
+  });
+  refresh();
+  takeMoment();
+}
+
 void LinkedTime::put(TimeRange range) {
   if (range == m_range) return;
   m_range = range;
+  noteSight();
   emit rangeChanged();
 }
 
@@ -43,24 +65,38 @@ void LinkedTime::setWindow(double seconds) {
   follow();
 }
 
-void LinkedTime::setData(std::optional<TimeRange> data) {
+void LinkedTime::refresh() {
+  m_refresh->settle();
+  const auto rows = m_shown->series();
+  const auto data = rows ? rows->range() : std::nullopt;
   if (data == m_data) return;
   m_data = data;
   follow();
+  noteSight();
+}
+
+void LinkedTime::noteSight() {
+  const auto at = playhead();
+  m_playheadInSight = at && isInSight(*at);
 }
 
 void LinkedTime::rewind(double time) {
-  if (m_data) setData(TimeRange{std::min(m_data->begin, time), std::min(m_data->end, time)});
-  if (m_marks[0] > time || m_marks[1] > time) {
-    m_marks = {};
-    emit marksChanged();
+  if (m_data) {
+    m_data = TimeRange{std::min(m_data->begin, time), std::min(m_data->end, time)};
+    follow();
   }
   if (m_range.begin >= time) setFollowing(true);
 }
 
+/// A range that was chosen in another source may have nothing of this one.
+void LinkedTime::leaveForeignRange() {
+  const auto held = m_shown->available();
+  if (!held || m_range.end <= held->begin || m_range.begin >= held->end) setFollowing(true);
+}
+
 void LinkedTime::follow() {
   if (!m_following) return;
-  if (m_moment) {
+  if (m_shown->chosenTime()) {
     keepInSight(m_window);
     return;
   }
@@ -74,39 +110,39 @@ void LinkedTime::follow() {
 // move what was clicked at.
 void LinkedTime::keepInSight(double span) {
   constexpr double margin = 0.1;  // of the span
+  const double moment = m_shown->time();
   const double share =
-      isInSight(*m_moment) ? (*m_moment - m_range.begin) / (m_range.end - m_range.begin) : 0.5;
-  double begin = span == m_range.end - m_range.begin ? m_range.begin : *m_moment - share * span;
-  begin = std::clamp(begin, *m_moment - (1 - margin) * span, *m_moment - margin * span);
+      isInSight(moment) ? (moment - m_range.begin) / (m_range.end - m_range.begin) : 0.5;
+  double begin = span == m_range.end - m_range.begin ? m_range.begin : moment - share * span;
+  begin = std::clamp(begin, moment - (1 - margin) * span, moment - margin * span);
   if (m_data) {
-    const double first = std::min(m_data->begin, *m_moment);
-    const double last = std::max(m_data->end, *m_moment);
+    const double first = std::min(m_data->begin, moment);
+    const double last = std::max(m_data->end, moment);
     begin = std::clamp(begin, first, std::max(first, last - span));
   }
   put({begin, begin + span});
 }
 
-void LinkedTime::setMoment(std::optional<double> time) {
-  if (time && !std::isfinite(*time)) return;
-  if (time == m_moment) return;
-  const auto was = playhead();
-  const bool seen = was && isInSight(*was);
-  m_moment = time;
+void LinkedTime::takeMoment() {
+  const auto moment = m_shown->chosenTime();
+  if (!moment && !std::exchange(m_wasChosen, false)) return;
+  m_wasChosen = moment.has_value();
   if (m_following)
     follow();
-  else if (time && seen && !isInSight(*time))
+  else if (moment && m_playheadInSight && !isInSight(*moment))
     keepInSight(span());
-  emit momentChanged();
+  noteSight();
+  emit playheadMoved();
 }
 
 std::optional<double> LinkedTime::playhead() const {
-  if (m_moment) return m_moment;
+  if (const auto chosen = m_shown->chosenTime()) return chosen;
   return m_data ? std::optional(m_data->end) : std::nullopt;
 }
 
 void LinkedTime::zoom(double factor, double anchor) {
   if (!(factor > 0.0) || !std::isfinite(factor)) return;
-  if (m_following && !m_moment) {
+  if (m_following && !m_shown->chosenTime()) {
     setWindow(m_window * factor);
     return;
   }
@@ -116,8 +152,8 @@ void LinkedTime::zoom(double factor, double anchor) {
   if (!m_following) return;
   m_window = wanted;
   emit windowChanged(wanted);
-  // Who looks closely at another place does not want to be pulled back to the moment shown.
-  if (isInSight(*m_moment)) return;
+  // A range that does not contain the shown moment is not moved to it.
+  if (isInSight(m_shown->time())) return;
   m_following = false;
   emit followingChanged(false);
 }
@@ -140,24 +176,10 @@ void LinkedTime::setCursor(std::optional<double> time) {
   emit cursorChanged();
 }
 
-void LinkedTime::setMark(TimeMark mark, std::optional<double> time) {
-  if (time && !std::isfinite(*time)) return;
-  TimeMarks marks = m_marks;
-  marks[index(mark)] = time;
-  setMarks(marks);
-}
-
-void LinkedTime::setMarks(const TimeMarks& marks) {
-  if (marks == m_marks) return;
-  const TimeMarks before = std::exchange(m_marks, marks);
-  emit marksChanged();
-  emit marksMoved(before);
-}
-
 void LinkedTime::showMarks(bool on) {
-  if (on == hasMarks()) return;
-  setMarks(on ? TimeMarks{m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()}
-              : TimeMarks{});
+  if (on == m_shown->hasMarks()) return;
+  m_shown->setMarks(on ? TimeMarks{m_range.begin + 0.4 * span(), m_range.begin + 0.8 * span()}
+                       : TimeMarks{});
 }
 
 }  // namespace pitchboard::ui

@@ -13,7 +13,12 @@ constexpr std::size_t fewRobots = 8;
 }  // namespace
 
 LiveController::LiveController(QObject* parent)
-    : FrameSource(parent), m_news(Beat::display().addSource([this] { deliver(); })) {}
+    : FrameSource(parent),
+      m_news(Beat::display().addSource([this] { deliver(); })),
+      m_rowNews(Beat::display().addSource([this] {
+        if (m_series) m_series->heard();
+        emit rowsAppended();
+      })) {}
 
 // The watch's thread posts to this object: it ends while this is whole.
 LiveController::~LiveController() {
@@ -72,7 +77,7 @@ void LiveController::clear() {
   emit restarted();
 }
 
-void LiveController::forget(const RobotKey& robot) {
+void LiveController::forget(RobotUid robot) {
   if (m_watch) m_watch->forget(robot);
 }
 
@@ -84,6 +89,7 @@ void LiveController::setMemoryBudget(std::size_t bytes) {
 void LiveController::keepRows() {
   if (m_memory) m_watch->stopObserving(m_memory);
   m_series = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_memoryBudget});
+  m_series->setListener([this] { m_toUi.post([this] { m_rowNews->want(); }); });
   m_memory = std::make_shared<link::LiveMemory>(m_series);
   m_moments = std::make_unique<link::LiveMoments>();
   link::FrameSettings backdrop;
@@ -116,18 +122,13 @@ QString LiveController::portsText() const {
   options.monitor.reset();
   auto ports = portsOf(options).value_or(std::vector<std::uint16_t>{});
   std::erase(ports, static_cast<std::uint16_t>(m_options.refereePort));
-  std::sort(ports.begin(), ports.end());
   QStringList ranges;
-  for (std::size_t i = 0; i < ports.size();) {
-    std::size_t last = i;
-    while (last + 1 < ports.size() && ports[last + 1] == ports[last] + 1) ++last;
-    ranges << (last == i ? QString::number(ports[i])
-                         : QStringLiteral("%1–%2").arg(ports[i]).arg(ports[last]));
-    i = last + 1;
+  for (const std::string& range : telemetry::portRanges(std::move(ports))) {
+    ranges << QString::fromStdString(range);
   }
   // The bar has room for two; the settings say all.
   if (ranges.size() > 2) {
-    ranges = {ranges.first(), QStringLiteral("… %1").arg(ports.back())};
+    ranges = {ranges.first(), QStringLiteral("… %1").arg(ranges.last().section(QChar(0x2013), -1))};
   }
   return QStringLiteral("UDP ") + ranges.join(QStringLiteral(", "));
 }
@@ -139,13 +140,18 @@ QString LiveController::emptyText() const {
   return QStringLiteral(
              "Waiting for robots…\nListening on %1: %2 for robots and UDP %3 for the "
              "referee.\n%4Check that this computer is in the robots' network and that no firewall "
-             "blocks UDP. Live sends nothing to robots.")
+             "blocks UDP. Live sends nothing to robots.%5")
       .arg(address, portsText())
       .arg(m_options.refereePort)
       .arg(m_options.team.teams.empty()
                ? QStringLiteral("Robot 1 sends to port %1, robot 2 to %2. ")
                      .arg(m_options.portBase + 1)
                      .arg(m_options.portBase + 2)
+               : QString())
+      .arg(details().ignoredSimulated > 0
+               ? QStringLiteral("\nA match is simulated on this computer. To show its robots here, "
+                                "turn on Receive simulated matches under Live > Settings and "
+                                "teams.")
                : QString());
 }
 
@@ -168,7 +174,6 @@ void LiveController::stopObserving(const std::shared_ptr<link::LiveObserver>& ob
 void LiveController::deliver() {
   if (!m_watch) return;  // stopped while this was on its way
   const link::LiveNews news = m_watch->take();
-  for (const auto& renamings : news.renamings) emit robotsRenamed(renamings);
   m_frame = news.frame;
   const bool many = m_frame && m_frame->robots.size() > fewRobots;
   m_news->setLeast(many ? manyPeriod : Beat::Milliseconds(0));
@@ -182,6 +187,9 @@ void LiveController::deliver() {
   std::vector<const link::MatchEvent*> ports;
   for (const link::MatchEvent& event : events) {
     if (event.kind == link::MatchEventKind::PortLost) ports.push_back(&event);
+    if (event.kind == link::MatchEventKind::PortsShared && !event.detail.empty()) {
+      emit errorOccurred(QString::fromStdString(sentenceOf(event)));
+    }
   }
   if (ports.empty()) return;
   const QString first = QString::fromStdString(sentenceOf(*ports.front()));

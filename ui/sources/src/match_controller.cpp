@@ -162,9 +162,7 @@ void MatchController::open(const link::Scenario& scenario, bool paused) {
 }
 
 link::Scenario MatchController::beginning() const {
-  link::Scenario scenario = m_beginning;
-  if (isOpen() || isOpening()) scenario.settings.physics = m_edits->physics();
-  return scenario;
+  return isOpen() || isOpening() ? m_edits->setUp(m_beginning) : m_beginning;
 }
 
 void MatchController::restart(std::function<void()> between) {
@@ -173,8 +171,12 @@ void MatchController::restart(std::function<void()> between) {
   m_edits->replaceMatch(
       beginning(),
       over ? QStringLiteral("Play the match again") : QStringLiteral("Restart the match"),
-      over ? QStringLiteral("Match started again") : QStringLiteral("Match restarted"), m_paused,
-      std::move(between));
+      (over ? QStringLiteral("Match started again") : QStringLiteral("Match restarted")) +
+          (beginning() == m_beginning
+               ? QString()
+               : QStringLiteral(
+                     " with what you set up (open the scenario again for its own setup)")),
+      m_paused, std::move(between));
 }
 
 std::shared_ptr<RetiredMatch> MatchController::remember() {
@@ -234,8 +236,10 @@ void MatchController::openAfter(const link::Scenario& scenario, bool paused,
   m_memory->begin(from ? from->memory : MatchMemory::Kept{});
   m_options.speed = m_speed;
   m_openedWith = m_options;
+  std::vector<std::shared_ptr<link::TickObserver>> observers = m_memory->observers();
+  emit preparing(observers);
   m_worker.start([this, old = std::move(old), between = std::move(between), scenario, paused, from,
-                  options = m_options, catalog = m_catalog, observers = m_memory->observers(),
+                  options = m_options, catalog = m_catalog, observers = std::move(observers),
                   generation = m_generation.load()]() mutable {
     old.reset();
     if (between) between();
@@ -281,23 +285,17 @@ void MatchController::take(Opening& opening) {
 void MatchController::poll() {
   if (!m_runner) return;
   if (FramePtr frame = m_runner->latest(m_frame ? m_frame->serial : 0)) {
-    std::vector<Renaming> renamings;
-    for (const link::RobotFrame& now : frame->robots) {
-      const link::RobotFrame* before = m_frame ? m_frame->robot(now.slot()) : nullptr;
-      if (before != nullptr && before->key != now.key) renamings.push_back({before->key, now.key});
-    }
     m_frame = std::move(frame);
-    if (!renamings.empty()) emit robotsRenamed(renamings);
     emit frameReceived(m_frame);
   }
   // A receiver may have opened another match.
   if (!m_runner) return;
-  if (const auto events = m_runner->takeEvents(); !events.empty()) {
+  if (const auto events = m_runner->drainEvents(); !events.empty()) {
     reportRealTimePrograms(events);
     emit eventsReceived(events);
   }
   if (!m_runner) return;
-  if (const auto lines = m_runner->takeLog(); !lines.empty()) emit logReceived(lines);
+  if (const auto lines = m_runner->drainLog(); !lines.empty()) emit logReceived(lines);
 }
 
 void MatchController::settle() {
@@ -394,26 +392,20 @@ void MatchController::skip(std::function<bool(const link::MatchEvent&)> wanted) 
 }
 
 void MatchController::skipToKickOff() {
-  if (m_frame && !m_frame->refereedGame) {
-    refuse(QStringLiteral("This match has no referee, so there is no kick-off to skip to."));
-    return;
-  }
-  skip([](const link::MatchEvent& event) {
-    return event.kind == link::MatchEventKind::GameState && event.detail == "PLAYING";
-  });
+  skip([](const link::MatchEvent& event) { return event.state == PlayState::Playing; });
 }
 
 void MatchController::skipToEvent(const EventFilter& shown) {
   skip([shown](const link::MatchEvent& event) { return shown.shows(event); });
 }
 
-/// Those whose profile says so.
+/// Returns the programs whose profile asks for real time.
 QStringList MatchController::realTimePrograms() const {
   QStringList names;
   if (!m_frame) return names;
   for (const link::RobotFrame& robot : m_frame->robots) {
-    for (const link::ProcessSummary& one : robot.processes()) {
-      if (one.isTeamProgram && one.whyRealTime == link::whyRealTime(link::ProcessClock::Real)) {
+    for (const link::ProcessStatus& one : robot.processes()) {
+      if (one.isTeamProgram && one.clock == link::ProcessClock::Real) {
         names << robotName(robot.identity) + QLatin1Char(' ') + QString::fromStdString(one.name);
       }
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <base/try.h>
+#include <simcore/rules/referee.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/retired_match.h>
 
@@ -69,6 +70,7 @@ MatchEdits::MatchEdits(MatchController* match)
     if (!m_replacing) m_undoStack->clear();
     const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
     m_robots.clear();
+    m_added.clear();
     for (const link::ScenarioRobot& entry : scenario.robots) {
       m_robots.emplace(entry.identity.id, entry);
     }
@@ -98,37 +100,72 @@ bool MatchEdits::allowsChange() {
   return !m_locked;
 }
 
-void MatchEdits::perform(Edit edit) {
-  if (m_match->isOpen() && allowsChange()) push(std::move(edit));
-}
-
-struct MatchEdits::Attempt {
-  int orders = 0;  // that were not refused so far
-  std::shared_ptr<bool> refused;
+struct MatchEdits::Performed {
+  MatchEdit edit;
+  bool carriedOut = false;  // the match's thread
+  std::shared_ptr<bool> refused = std::make_shared<bool>(false);
 };
 
-void MatchEdits::push(Edit edit) {
-  const auto refused = std::make_shared<bool>(false);
-  edit.refused = refused;
-  edit.redo = [this, refused, redo = std::move(edit.redo)] {
-    m_attempt = std::make_shared<Attempt>(Attempt{0, refused});
-    redo();
-    m_attempt.reset();
-  };
-  m_undoStack->push(new EditCommand(std::move(edit)));
+namespace {
+
+/// Carries out `run` of each step, or of none: after a failure `back` of those before it.
+template <class Iterator, class Run>
+Result<void> runAll(Iterator begin, Iterator end, Run run, Run back, link::SimulatedMatch& match) {
+  for (Iterator step = begin; step != end; ++step) {
+    auto done = ((*step).*run)(match);
+    if (done) continue;
+    while (step != begin) (void)((*--step).*back)(match);
+    return done;
+  }
+  return {};
 }
 
-void MatchEdits::post(MatchOrder order) {
-  if (m_attempt) {
-    ++m_attempt->orders;
-    order.onFailure = [this, attempt = m_attempt, then = std::move(order.onFailure)] {
-      if (then) then();
-      if (--attempt->orders > 0) return;
-      *attempt->refused = true;
-      dropRefused();
-    };
-  }
-  m_match->post(std::move(order));
+}  // namespace
+
+void MatchEdits::perform(MatchEdit edit) {
+  if (!(m_match->isOpen() || m_match->isOpening()) || !allowsChange()) return;
+  const auto made = std::make_shared<Performed>();
+  made->edit = std::move(edit);
+  carryOut(made, [this, made] {
+    m_undoStack->push(
+        new EditCommand({made->edit.text, [this, made] { carryOut(made); },
+                         [this, made] { takeBack(made); }, made->edit.mergeKey, made->refused}));
+  });
+}
+
+void MatchEdits::carryOut(const std::shared_ptr<Performed>& made, std::function<void()> onSuccess) {
+  const MatchEdit& edit = made->edit;
+  if (edit.note) edit.note();
+  m_match->post({edit.whatFailed,
+                 [made](link::SimulatedMatch& match) -> Result<void> {
+                   made->carriedOut = false;
+                   TRY(runAll(made->edit.steps.begin(), made->edit.steps.end(), &EditStep::redo,
+                              &EditStep::undo, match));
+                   made->carriedOut = true;
+                   return {};
+                 },
+                 [this, made] {
+                   if (made->edit.takeBack) made->edit.takeBack();
+                   *made->refused = true;
+                   dropRefused();
+                 },
+                 std::move(onSuccess), edit.changes});
+}
+
+void MatchEdits::takeBack(const std::shared_ptr<Performed>& made) {
+  const MatchEdit& edit = made->edit;
+  if (edit.takeBack) edit.takeBack();
+  m_match->post({QStringLiteral("Could not undo “%1”").arg(edit.text),
+                 [made](link::SimulatedMatch& match) -> Result<void> {
+                   if (!made->carriedOut) return {};
+                   return runAll(made->edit.steps.rbegin(), made->edit.steps.rend(),
+                                 &EditStep::undo, &EditStep::redo, match);
+                 },
+                 [made] {
+                   if (made->edit.note) made->edit.note();
+                 },
+                 {},
+                 edit.changes});
 }
 
 const EditCommand* MatchEdits::lastEdit() const {
@@ -140,46 +177,41 @@ void MatchEdits::dropRefused() {
   if (last != nullptr && last->isRefused()) m_undoStack->undo();
 }
 
-void MatchEdits::performOrder(const QString& text, const QString& whatFailed,
-                              std::vector<EditStep> steps, const QString& mergeKey) {
-  if (!(m_match->isOpen() || m_match->isOpening()) || !allowsChange()) return;
-  struct Order {
-    std::vector<EditStep> steps;
-    bool carriedOut = false;  // the match's thread; a redo may be refused
-  };
-  const auto all = std::make_shared<Order>(Order{std::move(steps)});
-  MatchOrder redo{whatFailed, [all](link::SimulatedMatch& match) -> Result<void> {
-                    all->carriedOut = false;
-                    for (auto step = all->steps.begin(); step != all->steps.end(); ++step) {
-                      auto done = step->redo(match);
-                      if (done) continue;
-                      while (step != all->steps.begin()) (void)(--step)->undo(match);
-                      return done;
-                    }
-                    all->carriedOut = true;
-                    return {};
-                  }};
-  const MatchOrder undo{QStringLiteral("Could not undo “%1”").arg(text),
-                        [all](link::SimulatedMatch& match) -> Result<void> {
-                          if (!all->carriedOut) return {};
-                          for (auto step = all->steps.rbegin(); step != all->steps.rend(); ++step) {
-                            if (auto undone = step->undo(match); !undone) return undone;
-                          }
-                          return {};
-                        }};
-  const MatchOrder again = redo;
-  redo.onSuccess = [this, text, again, undo, mergeKey] {
-    push({text, [this, again] { order(again); }, [this, undo] { order(undo); }, mergeKey, true});
-  };
-  m_match->post(std::move(redo));
-}
-
 void MatchEdits::order(MatchOrder change) {
-  if (allowsChange()) post(std::move(change));
+  if (allowsChange()) m_match->post(std::move(change));
 }
 
 void MatchEdits::order(link::MatchRunner::Command change) {
   if (allowsChange()) m_match->post(std::move(change));
+}
+
+link::Scenario MatchEdits::setUp(link::Scenario scenario) const {
+  std::erase_if(scenario.robots, [this](const link::ScenarioRobot& one) {
+    return !m_robots.contains(one.identity.id);
+  });
+  for (const auto& [id, wanted] : m_robots) {
+    const auto known =
+        std::ranges::find(scenario.robots, id, [](const auto& one) { return one.identity.id; });
+    if (known == scenario.robots.end()) {
+      scenario.robots.push_back(wanted);
+      continue;
+    }
+    if (m_added.contains(id)) {  // in the place of one that was removed
+      *known = wanted;
+      continue;
+    }
+    known->identity = wanted.identity;
+    known->behaviour = wanted.behaviour;
+    known->model = wanted.model;
+    known->runtime = wanted.runtime;
+  }
+  scenario.advisors = m_advisors;
+  scenario.settings.physics = m_physics;
+  if (const FramePtr frame = m_match->frame()) {
+    scenario.settings.noise = frame->settings->noise;
+    scenario.settings.rigidBody = frame->settings->rigidBody;
+  }
+  return scenario;
 }
 
 void MatchEdits::adopt(const link::Moment& moment) {
@@ -206,23 +238,10 @@ QString MatchEdits::subjectOf(const Items& items, RobotId first) const {
 }
 
 template <class Value>
-void MatchEdits::set(const Field<Value>& field, const Values<Value>& values) {
+void MatchEdits::note(const Field<Value>& field, const Values<Value>& values) {
   for (const auto& [id, value] : values) {
     const auto known = m_robots.find(id);
-    if (known == m_robots.end()) continue;
-    const QString name = robotName(known->second.identity);
-    const Value before = std::exchange(known->second.*field.member, value);
-    post({QString::fromUtf8(field.whatFailed).arg(name),
-          [carryOut = field.carryOut, id = id, value = value](link::SimulatedMatch& match) {
-            return carryOut(match, id, value);
-          },
-          [this, member = field.member, id = id, before] {
-            const auto still = m_robots.find(id);
-            if (still != m_robots.end()) still->second.*member = before;
-            emit robotsChanged();
-          },
-          {},
-          field.changes});
+    if (known != m_robots.end()) known->second.*field.member = value;
   }
   emit robotsChanged();
 }
@@ -235,34 +254,58 @@ void MatchEdits::change(const Field<Value>& field, Values<Value> values, const Q
     return known == nullptr || known->*field.member == wanted.second;
   });
   if (values.empty()) return;
-  Values<Value> before;
-  for (const auto& [id, value] : values) before.emplace_back(id, robot(id)->*field.member);
   const QString who = subjectOf(values, values.front().first);
-  const QString key =
-      mergeKey.isEmpty()
-          ? mergeKey
-          : mergeKeyOf(mergeKey, values, [](const auto& wanted) { return wanted.first; });
-  perform({text.arg(who), [this, &field, values = std::move(values)] { set(field, values); },
-           [this, &field, before = std::move(before)] { set(field, before); }, key});
+  MatchEdit edit{text.arg(who), QString::fromUtf8(field.whatFailed).arg(who), {}};
+  Values<Value> before;
+  for (const auto& wanted : values) {
+    const RobotId id = wanted.first;
+    before.emplace_back(id, robot(id)->*field.member);
+    const auto step = [carryOut = field.carryOut, id](const Value& value) {
+      return
+          [carryOut, id, value](link::SimulatedMatch& match) { return carryOut(match, id, value); };
+    };
+    edit.steps.push_back({step(wanted.second), step(before.back().second)});
+  }
+  if (!mergeKey.isEmpty()) {
+    edit.mergeKey = mergeKeyOf(mergeKey, values, [](const auto& wanted) { return wanted.first; });
+  }
+  edit.note = [this, &field, values = std::move(values)] { note(field, values); };
+  edit.takeBack = [this, &field, before = std::move(before)] { note(field, before); };
+  edit.changes = field.changes;
+  perform(std::move(edit));
 }
 
-void MatchEdits::placeRobots(const std::vector<RobotPlacement>& placements,
-                             Pose RobotPlacement::*where) {
-  m_match->post([placements, where](link::SimulatedMatch& match) {
-    // A robot that left meanwhile has nothing to be placed.
-    for (const RobotPlacement& placement : placements) {
-      (void)match.simulation().placeRobot(placement.id, placement.*where);
-    }
-    return link::Changed::Yes;
-  });
+EditStep placementStep(RobotId id, const Pose& pose) {
+  const auto before = std::make_shared<Pose>(pose);
+  return {[id, pose, before](link::SimulatedMatch& match) {
+            *before = match.simulation().robotPose(id).value_or(pose);
+            return match.simulation().placeRobot(id, pose);
+          },
+          [id, before](link::SimulatedMatch& match) {
+            return match.simulation().placeRobot(id, *before);
+          }};
+}
+
+EditStep ballStep(Point to, Velocity velocity) {
+  const auto before = std::make_shared<std::pair<Point, Velocity>>();
+  return {[to, velocity, before](link::SimulatedMatch& match) {
+            const sim::Snapshot now = match.simulation().snapshot();
+            *before = {now.ball, now.ballVelocity};
+            return match.simulation().placeBall(to, velocity);
+          },
+          [before](link::SimulatedMatch& match) {
+            return match.simulation().placeBall(before->first, before->second);
+          }};
 }
 
 void MatchEdits::performPlacements(const std::vector<RobotPlacement>& placements,
                                    const QString& mergeKey) {
   if (placements.empty()) return;
-  perform({QStringLiteral("Move ") + subjectOf(placements, placements.front().id),
-           [this, placements] { placeRobots(placements, &RobotPlacement::to); },
-           [this, placements] { placeRobots(placements, &RobotPlacement::from); }, mergeKey});
+  const QString who = subjectOf(placements, placements.front().id);
+  MatchEdit edit{QStringLiteral("Move ") + who, QStringLiteral("Could not move ") + who, {}};
+  edit.mergeKey = mergeKey;
+  for (const RobotPlacement& one : placements) edit.steps.push_back(placementStep(one.id, one.to));
+  perform(std::move(edit));
 }
 
 void MatchEdits::moveRobots(const std::vector<RobotPlacement>& placements) {
@@ -275,41 +318,31 @@ void MatchEdits::nudgeRobots(const std::vector<RobotPlacement>& placements) {
                                [](const RobotPlacement& placement) { return placement.id; }));
 }
 
-void MatchEdits::previewRobots(const std::vector<RobotPlacement>& placements) {
-  if (allowsChange()) placeRobots(placements, &RobotPlacement::to);
-}
-
-void MatchEdits::placeBall(Point position, Velocity velocity) {
-  post({QStringLiteral("Could not place the ball"),
-        [position, velocity](link::SimulatedMatch& match) {
-          return match.simulation().placeBall(position, velocity);
-        }});
-}
-
-void MatchEdits::moveBall(Point from, Point to, Velocity velocity) {
+void MatchEdits::moveBall(Point to, Velocity velocity) {
   perform(
       {velocity == Velocity{} ? QStringLiteral("Move the ball") : QStringLiteral("Kick the ball"),
-       [this, to, velocity] { placeBall(to, velocity); }, [this, from] { placeBall(from); }});
+       QStringLiteral("Could not place the ball"),
+       {ballStep(to, velocity)}});
 }
 
-void MatchEdits::previewBall(Point position) {
-  if (allowsChange()) placeBall(position);
+void MatchEdits::noteRobots(const std::vector<link::ScenarioRobot>& robots, bool present) {
+  for (const link::ScenarioRobot& entry : robots) {
+    if (present)
+      m_robots.insert_or_assign(entry.identity.id, entry);
+    else
+      m_robots.erase(entry.identity.id);
+  }
 }
 
-void MatchEdits::insert(const link::ScenarioRobot& entry) {
-  m_robots.insert_or_assign(entry.identity.id, entry);
-  post({QStringLiteral("Could not add %1").arg(robotName(entry.identity)),
-        [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
-        [this, id = entry.identity.id] { m_robots.erase(id); }});
+namespace {
+
+EditStep additionStep(const link::ScenarioRobot& entry) {
+  return {
+      [entry](link::SimulatedMatch& match) { return match.robots().add(entry); },
+      [id = entry.identity.id](link::SimulatedMatch& match) { return match.robots().remove(id); }};
 }
 
-void MatchEdits::erase(RobotId id) {
-  const link::ScenarioRobot* known = robot(id);
-  const QString name = known ? robotName(known->identity) : QStringLiteral("The robot");
-  m_robots.erase(id);
-  post({QStringLiteral("Could not remove %1").arg(name),
-        [id](link::SimulatedMatch& match) { return match.robots().remove(id); }});
-}
+}  // namespace
 
 int MatchEdits::freeNumber(TeamColor team, const std::vector<int>& taken) const {
   for (int number = 1;; ++number) {
@@ -322,17 +355,25 @@ int MatchEdits::freeNumber(TeamColor team, const std::vector<int>& taken) const 
   }
 }
 
-bool MatchEdits::wearsAnother(const sim::RobotIdentity& wanted) {
-  for (const auto& [id, entry] : m_robots) {
-    if (id == wanted.id || entry.identity.team != wanted.team ||
-        entry.identity.number != wanted.number) {
-      continue;
-    }
-    emit failed(QStringLiteral("%1 is already on the field. Choose another number.")
-                    .arg(robotName(wanted)));
-    return true;
-  }
-  return false;
+QString MatchEdits::whyNoTeam(TeamColor team) const {
+  const FramePtr frame = m_match->frame();
+  if (!frame || !frame->rules || !frame->game) return {};
+  const auto allowed = sim::checkTeam(*frame->game, team);
+  return allowed ? QString() : QString::fromStdString(allowed.error().message);
+}
+
+bool MatchEdits::isTaken(const sim::RobotIdentity& wanted) const {
+  return std::ranges::any_of(m_robots, [&wanted](const auto& known) {
+    const sim::RobotIdentity& other = known.second.identity;
+    return other.id != wanted.id && other.team == wanted.team && other.number == wanted.number;
+  });
+}
+
+bool MatchEdits::refusesTaken(const sim::RobotIdentity& wanted) {
+  if (!isTaken(wanted)) return false;
+  emit failed(
+      QStringLiteral("%1 is already on the field. Choose another number.").arg(robotName(wanted)));
+  return true;
 }
 
 void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> number) {
@@ -348,12 +389,24 @@ void MatchEdits::addRobot(TeamColor team, const Pose& pose, std::optional<int> n
   entry.identity = {id, team, number.value_or(freeNumber(team)), info(team).facesLeft};
   entry.pose = pose;
   // Of the kind of its team-mates, else of that of anybody.
-  const auto mate = std::ranges::find_if(
+  auto mate = std::ranges::find_if(
       m_robots, [team](const auto& known) { return known.second.identity.team == team; });
+  if (mate == m_robots.end()) mate = m_robots.begin();
   if (mate != m_robots.end()) entry.model = mate->second.model;
-  if (wearsAnother(entry.identity)) return;
-  perform({QStringLiteral("Add ") + robotName(entry.identity), [this, entry] { insert(entry); },
-           [this, id] { erase(id); }});
+  if (refusesTaken(entry.identity)) return;
+  const QString name = robotName(entry.identity);
+  MatchEdit edit{QStringLiteral("Add ") + name,
+                 QStringLiteral("Could not add ") + name,
+                 {additionStep(entry)}};
+  edit.note = [this, entry] {
+    noteRobots({entry}, true);
+    m_added.insert(entry.identity.id);
+  };
+  edit.takeBack = [this, entry] {
+    noteRobots({entry}, false);
+    m_added.erase(entry.identity.id);
+  };
+  perform(std::move(edit));
 }
 
 void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
@@ -367,13 +420,15 @@ void MatchEdits::removeRobots(const std::vector<RobotId>& ids) {
     if (seen != nullptr) leaving.back().pose = seen->pose;
   }
   if (leaving.empty()) return;
-  perform({QStringLiteral("Remove ") + subjectOf(leaving, leaving.front().identity.id),
-           [this, leaving] {
-             for (const link::ScenarioRobot& gone : leaving) erase(gone.identity.id);
-           },
-           [this, leaving] {
-             for (const link::ScenarioRobot& gone : leaving) insert(gone);
-           }});
+  const QString who = subjectOf(leaving, leaving.front().identity.id);
+  MatchEdit edit{QStringLiteral("Remove ") + who, QStringLiteral("Could not remove ") + who, {}};
+  for (const link::ScenarioRobot& gone : leaving) {
+    EditStep back = additionStep(gone);
+    edit.steps.push_back({std::move(back.undo), std::move(back.redo)});
+  }
+  edit.note = [this, leaving] { noteRobots(leaving, false); };
+  edit.takeBack = [this, leaving] { noteRobots(leaving, true); };
+  perform(std::move(edit));
 }
 
 void MatchEdits::setTeam(const std::vector<RobotId>& ids, TeamColor team) {
@@ -396,7 +451,7 @@ void MatchEdits::setNumber(RobotId id, int number) {
   if (known == nullptr) return;
   sim::RobotIdentity after = known->identity;
   after.number = number;
-  if (wearsAnother(after)) return;
+  if (refusesTaken(after)) return;
   change(identityField, {{id, after}}, QStringLiteral("Renumber %1 as ") + robotName(after));
 }
 
@@ -418,23 +473,12 @@ void MatchEdits::setRuntime(RobotId id, const link::RuntimeChoice& choice) {
   change(runtimeField, {{id, choice}}, QStringLiteral("Change the runtime of %1"));
 }
 
-void MatchEdits::adviseTeam(TeamColor team, const std::optional<link::AdvisorOptions>& advisor) {
-  const auto before = m_advisors;
+void MatchEdits::noteAdvisor(TeamColor team, const std::optional<link::AdvisorOptions>& advisor) {
   if (advisor) {
     m_advisors[team] = *advisor;
   } else {
     m_advisors.erase(team);
   }
-  post({QStringLiteral("Could not change the advisor of the team"),
-        [team, advisor](link::SimulatedMatch& match) {
-          return match.robots().setAdvisor(team, advisor);
-        },
-        [this, before] {
-          m_advisors = before;
-          emit robotsChanged();
-        },
-        {},
-        link::Changed::No});
   emit robotsChanged();
 }
 
@@ -450,39 +494,43 @@ void MatchEdits::setAdvised(TeamColor team, bool on) {
   const QString who = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
   const QString text = on ? QStringLiteral("Turn on the %1 team's advisor")
                           : QStringLiteral("Turn off the %1 team's advisor");
-  perform({text.arg(who), [this, team, after] { adviseTeam(team, after); },
-           [this, team, before] { adviseTeam(team, before); }});
+  const auto advise = [team](const std::optional<link::AdvisorOptions>& advisor) {
+    return [team, advisor](link::SimulatedMatch& match) {
+      return match.robots().setAdvisor(team, advisor);
+    };
+  };
+  MatchEdit edit{text.arg(who),
+                 QStringLiteral("Could not change the advisor of the team"),
+                 {{advise(after), advise(before)}}};
+  edit.note = [this, team, after] { noteAdvisor(team, after); };
+  edit.takeBack = [this, team, before] { noteAdvisor(team, before); };
+  edit.changes = link::Changed::No;
+  perform(std::move(edit));
 }
 
 void MatchEdits::takePhysics(const std::string& name) {
   if (std::exchange(m_physics, name) != name) emit physicsChanged();
 }
 
-void MatchEdits::switchPhysics(const std::string& name,
-                               const std::function<void(sim::Simulation&)>& report) {
-  const std::string before = m_physics;
-  takePhysics(name);
-  post({QStringLiteral("Could not change the physics model"),
-        [name, report](link::SimulatedMatch& match) -> Result<void> {
-          TRY(match.simulation().setPhysics(name));
-          report(match.simulation());
-          return {};
-        },
-        [this, before] { takePhysics(before); }});
-}
-
 void MatchEdits::setPhysics(const QString& model) {
-  const std::string after = model.toStdString();
-  if (after == m_physics) return;
-  const auto changed = [cause = newCause()](sim::Simulation& simulation) {
-    simulation.reportChanged(sim::Setting::Physics, cause);
-  };
-  const auto undone = [cause = m_lastCause](sim::Simulation& simulation) {
-    simulation.reportUndone(cause);
-  };
-  perform({QStringLiteral("Play with %1 physics").arg(model),
-           [this, after, changed] { switchPhysics(after, changed); },
-           [this, before = m_physics, undone] { switchPhysics(before, undone); }});
+  const std::string after = model.toStdString(), before = m_physics;
+  if (after == before) return;
+  const std::uint32_t cause = newCause();
+  MatchEdit edit{QStringLiteral("Play with %1 physics").arg(model),
+                 QStringLiteral("Could not change the physics model"),
+                 {{[after, cause](link::SimulatedMatch& match) -> Result<void> {
+                     TRY(match.simulation().setPhysics(after));
+                     match.simulation().reportChanged(sim::Setting::Physics, cause);
+                     return {};
+                   },
+                   [before, cause](link::SimulatedMatch& match) -> Result<void> {
+                     TRY(match.simulation().setPhysics(before));
+                     match.simulation().reportUndone(cause);
+                     return {};
+                   }}}};
+  edit.note = [this, after] { takePhysics(after); };
+  edit.takeBack = [this, before] { takePhysics(before); };
+  perform(std::move(edit));
 }
 
 void MatchEdits::replaceMatch(const link::Scenario& scenario, const QString& text,
@@ -500,7 +548,7 @@ void MatchEdits::replaceMatch(const link::Scenario& scenario, const QString& tex
     *other = m_match->bringBack(*other);
     m_replacing = false;
   };
-  m_undoStack->push(new EditCommand({text, swap, swap, {}, true}));
+  m_undoStack->push(new EditCommand({text, swap, swap}));
   emit replaced(done);
 }
 
@@ -594,7 +642,7 @@ void MatchEdits::changeSetting(sim::Setting setting, const QString& text, const 
         if (undone && std::exchange(*reported, false)) match.simulation().reportUndone(cause);
         return undone;
       }};
-  performOrder(text, whatFailed, {std::move(reporting)}, m_gesture.mergeKey());
+  perform({text, whatFailed, {std::move(reporting)}, m_gesture.mergeKey()});
 }
 
 void MatchEdits::setNoise(const sim::NoiseParameters& noise) {
@@ -618,15 +666,14 @@ void MatchEdits::setRigidBody(const sim::RigidBodySettings& settings) {
 }
 
 void MatchEdits::setClockRunning(bool running) {
-  performOrder(
-      running ? QStringLiteral("Start the game clock") : QStringLiteral("Stop the game clock"),
-      QStringLiteral("Could not change the clock"),
-      {settingStep(
-          running, [](const sim::WorldState& state) { return state.clockRunning; },
-          [](sim::Simulation& simulation, bool value) -> Result<void> {
-            simulation.setClockRunning(value);
-            return {};
-          })});
+  perform({running ? QStringLiteral("Start the game clock") : QStringLiteral("Stop the game clock"),
+           QStringLiteral("Could not change the clock"),
+           {settingStep(
+               running, [](const sim::WorldState& state) { return state.clockRunning; },
+               [](sim::Simulation& simulation, bool value) -> Result<void> {
+                 simulation.setClockRunning(value);
+                 return {};
+               })}});
 }
 
 void MatchEdits::resetScore() {

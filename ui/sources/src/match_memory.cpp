@@ -2,19 +2,97 @@
 #include <ui/sources/match_memory.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <memory>
+#include <mutex>
 
 #include <robotlink/frame/drawing_origin.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/moment_reader.h>
+#include <telemetry/series/row_sink.h>
+#include <telemetry/series/series_store.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/match_edits.h>
 
-#include "match_rows.h"
-
 namespace pitchboard::ui {
 
-MatchMemory::MatchMemory(MatchController* match) : QObject(match), m_match(match) {}
+/// The rows of one simulated match, written by two kinds of threads: the match's, which brings its
+/// own time, and the samplers of attached blackboards, whose rows get the match's time at that
+/// moment, so that both can be compared.
+class MatchRows : public telemetry::RowSink {
+ public:
+  explicit MatchRows(std::size_t memoryBudget) : m_store({memoryBudget}) {}  ///< bytes
+
+  // The match's thread.
+  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
+  void append(telemetry::GroupId group, const telemetry::RowView& row) override;
+  /// The match goes on from here (s): later rows are dropped, those of attached blackboards too.
+  void rewind(double time);
+
+  // Any thread.
+  const telemetry::SeriesStore& store() const { return m_store; }
+  void setMemoryBudget(std::size_t bytes) { m_store.setMemoryBudget(bytes); }
+
+  /// Of what is sampled beside the match, s.
+  double timeBeside();
+  /// Where its rows go; keeps `rows`.
+  static std::shared_ptr<telemetry::RowSink> beside(const std::shared_ptr<MatchRows>& rows) {
+    return {rows, &rows->m_store};
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::mutex m_mutex;  // of the time
+  telemetry::SeriesStore m_store;
+  double m_time = 0.0;  // of the match's newest row, s
+  double m_step = 0.0;  // between its last two
+  Clock::time_point m_arrived = Clock::now();
+  bool m_matchBegan = false;
+};
+
+telemetry::GroupId MatchRows::addGroup(const telemetry::GroupInfo& info) {
+  return m_store.addGroup(info);
+}
+
+void MatchRows::append(telemetry::GroupId group, const telemetry::RowView& row) {
+  // Only this thread changes the time: it may look without the lock.
+  if (row.time != m_time || !m_matchBegan) {
+    const std::lock_guard lock(m_mutex);
+    m_step = m_matchBegan ? std::max(0.0, row.time - m_time) : 0.0;
+    m_time = row.time;
+    m_arrived = Clock::now();
+    m_matchBegan = true;
+  }
+  m_store.append(group, row);
+}
+
+void MatchRows::rewind(double time) {
+  {
+    const std::lock_guard lock(m_mutex);
+    m_step = 0.0;
+    m_time = time;
+  }
+  m_store.rewind(time);
+}
+
+// Between two ticks time goes on as it does on the wall, but never past the next tick.
+double MatchRows::timeBeside() {
+  const std::lock_guard lock(m_mutex);
+  const double since = std::chrono::duration<double>(Clock::now() - m_arrived).count();
+  return m_matchBegan ? m_time + std::min(since, m_step) : 0.0;
+}
+
+MatchMemory::MatchMemory(MatchController* match) : QObject(match), m_match(match) {
+  connect(match, &MatchController::frameReceived, this,
+          [this](const FramePtr& frame) { noteBehaviours(*frame); });
+  connect(match, &MatchController::rewound, this, [this](double time) {
+    for (auto& [robot, list] : m_kept.behaviours) {
+      std::erase_if(list, [time](const auto& one) { return one.first > time; });
+    }
+  });
+}
 MatchMemory::~MatchMemory() = default;
 
 void MatchMemory::begin(Kept kept) {
@@ -27,7 +105,8 @@ void MatchMemory::begin(Kept kept) {
   m_kept = {std::make_shared<MatchRows>(m_budget),
             {},
             std::make_shared<link::StateArchive>(),
-            std::make_shared<link::DrawingMemory>()};
+            std::make_shared<link::DrawingMemory>(),
+            {}};
   m_kept.sampler =
       std::make_shared<link::MatchSampler>(m_kept.rows, link::MatchSamplerOptions{m_everyNth});
 }
@@ -75,6 +154,14 @@ void MatchMemory::setSampling(int everyNth) {
   });
 }
 
+void MatchMemory::noteBehaviours(const link::MatchFrame& frame) {
+  for (const link::RobotFrame& robot : frame.robots) {
+    auto& list = m_kept.behaviours[robot.uid];
+    if (list.empty() || list.back().second != robot.behaviour)
+      list.emplace_back(list.empty() ? 0.0 : frame.snapshot.time, robot.behaviour);
+  }
+}
+
 FramePtr MatchMemory::frameAt(double time) const {
   const auto rows = series();
   const FramePtr newest = m_match->frame();
@@ -89,6 +176,13 @@ FramePtr MatchMemory::frameAt(double time) const {
   past->drawings = m_drawn.at(*m_kept.drawings, time);
   link::keyDrawings(*past);
   // Rows do not tell what was changed by hand while the match ran.
+  for (link::RobotFrame& robot : past->robots) {
+    const auto known = m_kept.behaviours.find(robot.uid);
+    if (known == m_kept.behaviours.end()) continue;
+    for (const auto& [from, behaviour] : known->second) {
+      if (from <= past->snapshot.time) robot.behaviour = behaviour;
+    }
+  }
   const auto tick = static_cast<std::uint64_t>(
       std::llround(std::max(past->snapshot.time, 0.0) * past->settings->tickRate));
   if (const auto settings = m_kept.archive->settings(tick)) {
@@ -97,7 +191,9 @@ FramePtr MatchMemory::frameAt(double time) const {
     then->physics = settings->physics;
     then->rigidBody = settings->rigidBody;
     past->settings = std::move(then);
-    past->refereeRules = settings->referee ? settings->referee->name : std::string();
+    if (past->rules && settings->referee) {
+      past->rules = std::make_shared<const sim::RefereeRules>(*settings->referee);
+    }
   }
   return past;
 }
@@ -107,11 +203,11 @@ void MatchMemory::reportLosses(const link::Moment& moment, link::Cognition where
   const double time = static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
   emit continuedWithout(
       where == link::Cognition::Separate
-          ? QStringLiteral("Separate reference processes restart with the belief they had at %1. "
-                           "Team programs keep theirs.")
+          ? QStringLiteral("Restarted the separate reference processes with their beliefs of %1. "
+                           "Team programs continue with what they know now.")
                 .arg(clockText(time))
-          : QStringLiteral("The memory of the robots' processes at %1 is no longer available, so "
-                           "they restart with the belief they had then.")
+          : QStringLiteral("The internal state of the robots' processes at %1 is no longer stored. "
+                           "They restart with their beliefs of that moment.")
                 .arg(clockText(time)),
       time);
 }

@@ -13,7 +13,8 @@ namespace {
 /// 1240 + this is its port; 0: it has none.
 int portOf(const link::RobotFrame& robot) {
   if (robot.slot().value != 0) return robot.slot().value;
-  return robot.key.team <= 1 && robot.key.sender == 0 ? robot.key.number : 0;
+  const bool isOfAnyTeam = robot.key.team <= 1 || robot.key.team == telemetry::simulatedTeam;
+  return isOfAnyTeam && robot.key.sender == 0 ? robot.key.number : 0;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <base/try.h>
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/check_call.h>
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/match_controller.h>
 
@@ -17,7 +18,8 @@ namespace {
 /// What the decision changed; filled and read on the match's thread.
 struct BeforeDecision {
   std::optional<sim::RefereeRules> rules;
-  std::optional<sim::GameState> game;
+  std::optional<Game> game;
+  sim::RefereeMemory memory;
   sim::Score score;
   bool clockRunning = false;
   std::uint64_t clockTicks = 0;
@@ -30,6 +32,7 @@ struct BeforeDecision {
     *this = {};
     rules = state.settings.referee;
     game = state.game;
+    memory = state.refereeMemory;
     score = state.score;
     clockRunning = state.clockRunning;
     clockTicks = state.clockTicks;
@@ -40,6 +43,7 @@ struct BeforeDecision {
     sim::WorldState& state = simulation.editState();
     state.settings.referee = rules;
     state.game = game;
+    state.refereeMemory = memory;
     state.score = score;
     state.clockRunning = clockRunning;
     state.clockTicks = clockTicks;
@@ -95,7 +99,7 @@ EditStep refereeStep(MatchEdits* edits, sim::RefereeCall call) {
 }
 
 void callReferee(MatchEdits* edits, const sim::RefereeCall& call, const QString& text) {
-  edits->performOrder(text, notCarriedOut(), {refereeStep(edits, call)});
+  edits->perform({text, notCarriedOut(), {refereeStep(edits, call)}});
 }
 
 void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<RobotId>& robots,
@@ -107,7 +111,7 @@ void callReferee(MatchEdits* edits, sim::RefereeCall call, const std::vector<Rob
     call.robot = robot;
     steps.push_back(refereeStep(edits, call));
   }
-  edits->performOrder(text, notCarriedOut(), std::move(steps));
+  edits->perform({text, notCarriedOut(), std::move(steps)});
 }
 
 void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString& title) {
@@ -118,30 +122,28 @@ void chooseReferee(MatchEdits* edits, const std::string& ruleSet, const QString&
     match.simulation().reportChanged(sim::Setting::Rules, cause);
     return {};
   };
-  edits->performOrder(QStringLiteral("rules: ") + title,
-                      QStringLiteral("Could not change the rules"), {decisionStep(cause, choose)});
+  edits->perform({QStringLiteral("rules: ") + title,
+                  QStringLiteral("Could not change the rules"),
+                  {decisionStep(cause, choose)}});
 }
 
 QString whyRefused(const link::MatchFrame* frame, const sim::RefereeCall& call) {
-  if (frame == nullptr || !frame->refereedGame) {
+  if (frame == nullptr || !frame->rules) {
     return QStringLiteral("This match has no referee. Choose rules to get one.");
   }
   std::vector<sim::RobotIdentity> robots;
   for (const link::RobotFrame& robot : frame->robots) robots.push_back(robot.identity);
-  const auto checked =
-      sim::checkCall(frame->refereedGame->game, frame->refereedGame->rules, robots, call);
+  const auto checked = sim::checkCall(*frame->game, *frame->rules, robots, call);
   return checked ? QString() : QString::fromStdString(checked.error().message);
 }
 
 namespace {
 
 using sim::CallKind;
-using sim::PenaltyKind;
 
 /// Grey with the reason while it would be refused.
 QAction* addCall(QMenu* menu, MatchController* match, const QString& text,
                  const sim::RefereeCall& call, const std::vector<RobotId>& robots) {
-  menu->setToolTipsVisible(true);
   QAction* action = menu->addAction(text, match, [match, call, robots, text] {
     if (robots.empty())
       callReferee(match->edits(), call, text);
@@ -152,8 +154,7 @@ QAction* addCall(QMenu* menu, MatchController* match, const QString& text,
   if (!robots.empty()) first.robot = robots.front();
   const QString why = match->edits()->isLocked() ? MatchEdits::lockedText()
                                                  : whyRefused(match->frame().get(), first);
-  action->setEnabled(why.isEmpty());
-  action->setToolTip(why);
+  enableUnless(*action, why);
   return action;
 }
 
@@ -161,7 +162,7 @@ QAction* addCall(QMenu* menu, MatchController* match, const QString& text,
 
 void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<RobotId>& robots) {
   const FramePtr frame = match->frame();
-  if (robots.empty() || !frame || !frame->refereedGame) return;
+  if (robots.empty() || !frame || !frame->rules) return;
   QMenu* own = menu->addMenu(QStringLiteral("Referee"));
   own->setObjectName(QStringLiteral("refereeMenu"));
   QMenu* penalise = own->addMenu(QStringLiteral("Penalise"));
@@ -187,11 +188,11 @@ void addRefereeMenu(QMenu* menu, MatchController* match, const std::vector<Robot
 
 void addRefereeGround(QMenu* menu, MatchController* match, Point place) {
   const FramePtr frame = match->frame();
-  if (!frame || !frame->refereedGame) return;
+  if (!frame || !frame->rules) return;
   QMenu* own = menu->addMenu(QStringLiteral("Referee"));
   own->setObjectName(QStringLiteral("refereeMenu"));
   for (int team = 0; team < 2; ++team) {
-    const auto& playing = frame->refereedGame->game.teams[static_cast<std::size_t>(team)];
+    const auto& playing = frame->game->teams[static_cast<std::size_t>(team)];
     const QString colour = capitalised(info(playing.colour).name).toUpper();
     addCall(own, match, QStringLiteral("Goal for %1").arg(colour),
             {.kind = CallKind::Goal, .team = team, .value = 1}, {})
@@ -206,12 +207,9 @@ void addRefereeGround(QMenu* menu, MatchController* match, Point place) {
                                                   {"Left penalty mark", {-mark, 0}},
                                                   {"Right penalty mark", {mark, 0}}};
   for (const auto& [name, where] : places) {
-    QAction* action = ball->addAction(QString::fromUtf8(name), match, [match, where = where] {
-      if (const FramePtr now = match->frame()) {
-        match->edits()->moveBall(now->snapshot.ball, where);
-      }
-    });
-    action->setEnabled(!match->edits()->isLocked());
+    QAction* action = ball->addAction(QString::fromUtf8(name), match,
+                                      [match, where = where] { match->edits()->moveBall(where); });
+    enableUnless(*action, match->edits()->isLocked() ? MatchEdits::lockedText() : QString());
   }
 }
 

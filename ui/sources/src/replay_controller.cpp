@@ -4,14 +4,15 @@
 #include <QFileInfo>
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 #include <robotlink/experiment/run_player.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+#include <telemetry/session/session_notes.h>
 #include <ui/base/robot_text.h>
-#include <ui/sources/playback.h>
 
 #include "replay_pages.h"
 
@@ -31,8 +32,8 @@ double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRan
   double first = range.begin;
   if (frames.frameAt(session, first).robots.empty()) {
     session.rows(range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
-      const auto& attributes = session.groups()[group].info.attributes;
-      if (!attributes.contains("robot") && !attributes.contains("number")) return true;
+      const telemetry::RobotFacts& facts = factsOf(session.groups()[group].info);
+      if (facts.slot == 0 && facts.number == 0) return true;
       first = row.time;
       return false;
     });
@@ -41,7 +42,7 @@ double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRan
   const link::MatchFrame all = frames.frameAt(session, last);
   for (double time = first; time < last; time += step) {
     const link::MatchFrame now = frames.frameAt(session, time);
-    const bool hasReferee = now.referee || !all.referee;
+    const bool hasReferee = now.game || !all.game;
     if (now.robots.size() >= all.robots.size() && hasReferee) return time;
   }
   return last;
@@ -101,8 +102,8 @@ struct ReplayController::File {
   std::vector<link::MatchEvent> events;
   std::vector<LogLine> log;
   std::string scenario;
-  double tickRate = 60.0;
   bool broken = false;
+  bool growing = false;
   bool live = false;   ///< moments are made of datagrams, which only the file holds
   bool paged = false;  ///< its rows do not fit
   bool unrepeatable = false;
@@ -117,7 +118,6 @@ struct ReplayController::File {
         info(session.info()),
         frames(link::backdropOf(session)),
         memoryFrames(link::backdropOf(session)),
-        tickRate(link::backdropOf(session).tickRate),
         live(session.count(telemetry::SessionStream::LiveState) > 0 ||
              session.count(telemetry::SessionStream::Telemetry) > 0) {
     for (const telemetry::SessionGroup& group : session.groups()) groups.push_back(group.info);
@@ -138,10 +138,7 @@ struct ReplayController::File {
   }
 };
 
-ReplayController::ReplayController(QObject* parent)
-    : FrameSource(parent), m_playback(new Playback(this)) {
-  connect(m_playback, &Playback::positionChanged, this, &ReplayController::wantMoment);
-}
+ReplayController::ReplayController(QObject* parent) : FrameSource(parent) {}
 
 ReplayController::~ReplayController() {
   ++m_generation;
@@ -163,6 +160,10 @@ telemetry::SessionInfo ReplayController::info() const {
 
 bool ReplayController::isBroken() const {
   return m_file && m_file->broken;
+}
+
+bool ReplayController::isGrowing() const {
+  return m_file && m_file->growing;
 }
 
 bool ReplayController::isUnrepeatable() const {
@@ -205,6 +206,13 @@ void ReplayController::open(const QString& path) {
     std::shared_ptr<File> file;
     if (!session) {
       problem = QString::fromStdString(session.error().text());
+    } else if (session->isForeign()) {
+      m_toUi.post([this, path, mine] {
+        if (mine != m_generation) return;
+        m_opening = false;
+        emit foreignFound(path);
+      });
+      return;
     } else if (const auto range = session->range(); !range) {
       problem = QStringLiteral("%1 has no rows and no messages").arg(path);
     } else {
@@ -224,7 +232,8 @@ void ReplayController::open(const QString& path) {
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }
-      file->broken = !file->session.complete();
+      file->growing = file->session.isGrowing();
+      file->broken = !file->session.complete() && !file->growing;
       file->unrepeatable = !link::isRunRepeatable(path.toStdString()).value_or(true);
     }
     m_toUi.post([this, file, problem, path, mine] {
@@ -259,7 +268,6 @@ void ReplayController::close() {
   m_path.clear();
   m_wanted.reset();
   m_opening = false;
-  m_playback->setRange({});
   emit restarted();
 }
 
@@ -269,13 +277,7 @@ void ReplayController::take(std::shared_ptr<File> file) {
   m_file->rows = std::make_shared<telemetry::SeriesStore>(telemetry::SeriesOptions{m_budget});
   m_frame = m_file->first;
   m_wanted.reset();
-  m_playback->setPaused(true);
-  m_playback->setLoop({});
-  m_playback->setRange({});
-  m_playback->setTickRate(m_file->tickRate);
-  // In this order: a new range would first move to its begin and show that moment.
-  m_playback->seek(m_file->start);
-  m_playback->setRange(m_file->range);
+  m_time = m_file->start;
   emit restarted();
   emit frameReceived(m_frame);
   if (!m_file->paged) reportRecorded();
@@ -299,8 +301,14 @@ FramePtr ReplayController::frameAt(double time) const {
   return nullptr;
 }
 
-void ReplayController::wantMoment(double time) {
-  if (!m_file) return;
+std::optional<telemetry::TimeRange> ReplayController::available() const {
+  return m_file ? std::optional(m_file->range) : std::nullopt;
+}
+
+void ReplayController::standAt(double time) {
+  if (!m_file || !std::isfinite(time)) return;
+  time = std::clamp(time, m_file->range.begin, m_file->range.end);
+  if (std::exchange(m_time, time) == time) return;
   m_wanted = time;
   if (FramePtr held = frameAt(time)) {
     m_wanted.reset();
@@ -375,6 +383,17 @@ void ReplayController::page() {
           emit loadedChanged(m_loaded);
         });
   });
+}
+
+void ReplayController::keepBookmark(const link::MatchEvent& bookmark) {
+  if (!m_file) return;
+  const auto kept = telemetry::addSessionNote(m_path.toStdString(), bookmark.time, bookmark.detail);
+  if (kept) return;
+  QString reason = QString::fromStdString(kept.error().text());
+  if (!reason.endsWith(QLatin1Char('.'))) reason += QLatin1Char('.');
+  emit notKept(QStringLiteral("The bookmark will be lost: %1 Open a copy of the recording in a "
+                              "folder that you can write to.")
+                   .arg(reason));
 }
 
 void ReplayController::setMemoryBudget(std::size_t bytes) {

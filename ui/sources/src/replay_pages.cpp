@@ -21,7 +21,7 @@ namespace {
 // (moments elsewhere): plots and marks never push out each other's rows.
 constexpr double longStretch = 7.0 / 16, shortStretch = 1.0 / 16;
 constexpr double nearby = 5.0;  // s; around a moment, because the next one is mostly near
-constexpr std::size_t mostWanted = 8;
+constexpr std::size_t maxWanted = 8;
 
 bool contains(TimeRange outer, TimeRange inner) {
   return outer.begin <= inner.begin && inner.end <= outer.end;
@@ -128,7 +128,7 @@ void ReplayPages::want(TimeRange range) {
       {std::max(range.begin - more, m_range.begin), std::min(range.end + more, m_range.end)});
   // A long stretch that is looked at comes at once, what is beside it afterwards.
   if (length > nearby) m_wanted.push_back(range);
-  while (m_wanted.size() > mostWanted) m_wanted.pop_front();
+  while (m_wanted.size() > maxWanted) m_wanted.pop_front();
   work();
 }
 
@@ -270,8 +270,8 @@ std::optional<telemetry::SeriesStatistics> ReplayPages::statistics(GroupId group
     return one.group == group && one.column == column && !one.isDone();
   });
   m_measures.push_front({group, column, range, {}, range.begin});
-  constexpr std::size_t mostMeasures = 100;
-  if (m_measures.size() > mostMeasures) m_measures.pop_back();
+  constexpr std::size_t maxMeasures = 100;
+  if (m_measures.size() > maxMeasures) m_measures.pop_back();
   work();
   return std::nullopt;
 }
@@ -291,7 +291,7 @@ void ReplayPages::measure() {
     if (first == m_measures.end()) return;
     const double length = std::max(nearby, secondsThatFit() * shortStretch);
     part = {first->next, std::min(first->next + length, first->range.end)};
-    // Those of one range are measured together.
+    // Measures of one range are computed together.
     for (const Measure& one : m_measures) {
       if (one.next == part.begin && one.range == first->range) {
         columns.emplace_back(one.group, one.column);

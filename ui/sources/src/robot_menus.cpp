@@ -3,13 +3,14 @@
 #include <ui/sources/robot_menus.h>
 
 #include <QActionGroup>
-#include <QFileDialog>
 #include <QMenu>
 #include <algorithm>
 
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/action_codes.h>
+#include <ui/base/action_reason.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/robot_text.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/referee_calls.h>
@@ -93,7 +94,6 @@ void addBehaviourMenu(QMenu* menu, MatchController* controller, const std::vecto
 void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<RobotId>& ids) {
   if (ids.empty() || !allOf(*controller, ids, [](const auto&) { return true; })) return;
   QMenu* runtime = menu->addMenu(QStringLiteral("Runtime"));
-  runtime->setToolTipsVisible(true);
   auto* group = new QActionGroup(runtime);
   const auto choose = [controller](const std::vector<RobotId>& whom,
                                    const link::RuntimeChoice& choice) {
@@ -108,24 +108,22 @@ void addRuntimeMenu(QMenu* menu, MatchController* controller, const std::vector<
                      controller, [choose, ids, choice] { choose(ids, choice); });
   };
   const auto askFile = [menu](const QString& title, const QString& filter) {
-    return QFileDialog::getOpenFileName(menu->parentWidget(), title, QString(), filter)
-        .toStdString();
+    return askToOpen(menu->parentWidget(), title, filter).toStdString();
   };
-  offer(QStringLiteral("From team and behaviour"), {});
+  offer(QStringLiteral("Default of its team and behaviour"), {});
   offer(QStringLiteral("Reference processes"), {std::string(link::referenceRuntime), {}, {}});
   offer(QStringLiteral("Team programs, started by me"), {std::string(link::ownRuntime), {}, {}});
   runtime->addSeparator();
   runtime->addAction(
       QStringLiteral("Run my program as decision…"), controller, [choose, ids, askFile] {
-        const std::string file = askFile(
-            QStringLiteral("Program for decision; it gets the blackboard's key as its argument"),
-            {});
+        const std::string file = askFile(QStringLiteral("Choose the decision program"), {});
         if (!file.empty()) choose(ids, {{}, {}, file});
       });
-  runtime->addAction(QStringLiteral("Folder of published robots…"), controller, [=] {
-    const std::string folder = QFileDialog::getExistingDirectory(
-                                   menu->parentWidget(), QStringLiteral("Folder with AI, AI2, …"))
-                                   .toStdString();
+  runtime->addAction(QStringLiteral("Run a published code folder…"), controller, [=] {
+    const std::string folder =
+        askForFolder(menu->parentWidget(),
+                     QStringLiteral("Choose the folder that contains AI, AI2, …"))
+            .toStdString();
     if (!folder.empty()) choose(ids, {"published-tree", {{"folder", folder}}, {}});
   });
   runtime->addAction(QStringLiteral("Profile from a file…"), controller, [choose, ids, askFile] {
@@ -155,9 +153,11 @@ void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<Rob
     const bool chosen = allOf(*controller, ids, [&](const link::ScenarioRobot& r) {
       return r.identity.team == color.color;
     });
-    QObject::connect(
-        addChoice(group, team, capitalised(color.name), chosen), &QAction::triggered, controller,
-        [controller, ids, to = color.color] { controller->edits()->setTeam(ids, to); });
+    QAction* choice = addChoice(group, team, capitalised(color.name), chosen);
+    enableUnless(*choice, controller->edits()->whyNoTeam(color.color));
+    QObject::connect(choice, &QAction::triggered, controller, [controller, ids, to = color.color] {
+      controller->edits()->setTeam(ids, to);
+    });
   }
   if (ids.empty()) return;
   const TeamColor its = controller->edits()->robot(ids.front())->identity.team;
@@ -165,25 +165,29 @@ void addTeamMenu(QMenu* menu, MatchController* controller, const std::vector<Rob
   if (!allOf(*controller, ids, isMate)) return;
   team->addSeparator();
   QAction* advisor = team->addAction(QStringLiteral("Advisor"));
-  advisor->setToolTip(QStringLiteral("The team's robots think ahead before they decide"));
+  advisor->setToolTip(QStringLiteral("The team's keeper learns where the opponents aim"));
   advisor->setCheckable(true);
   advisor->setChecked(controller->edits()->isAdvised(its));
   QObject::connect(advisor, &QAction::triggered, controller,
                    [controller, its](bool on) { controller->edits()->setAdvised(its, on); });
-  team->setToolTipsVisible(true);
 }
 
 void addNumberMenu(QMenu* menu, MatchController* controller, RobotId id) {
-  constexpr int mostShown = 11;
+  constexpr int maxShown = 11;
   const link::ScenarioRobot* robot = controller->edits()->robot(id);
   if (robot == nullptr) return;
   QMenu* numbers = menu->addMenu(QStringLiteral("Number"));
   auto* group = new QActionGroup(numbers);
-  for (int number = 1; number <= mostShown; ++number) {
-    QObject::connect(
-        addChoice(group, numbers, QString::number(number), robot->identity.number == number),
-        &QAction::triggered, controller,
-        [controller, id, number] { controller->edits()->setNumber(id, number); });
+  for (int number = 1; number <= maxShown; ++number) {
+    sim::RobotIdentity wanted = robot->identity;
+    wanted.number = number;
+    QAction* choice =
+        addChoice(group, numbers, QString::number(number), robot->identity.number == number);
+    enableUnless(*choice, controller->edits()->isTaken(wanted)
+                              ? QStringLiteral("Another robot of the team wears this number")
+                              : QString());
+    QObject::connect(choice, &QAction::triggered, controller,
+                     [controller, id, number] { controller->edits()->setNumber(id, number); });
   }
 }
 
@@ -203,12 +207,10 @@ void addModelMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
       controller->edits()->setModel(ids, model);
     });
   }
-  models->setToolTipsVisible(true);
   models->addSeparator();
   models->addAction(QStringLiteral("From a file…"), controller, [controller, ids] {
-    const QString path =
-        QFileDialog::getOpenFileName(nullptr, QStringLiteral("Choose a robot model"), {},
-                                     QStringLiteral("Robot models (*.json);;All files (*)"));
+    const QString path = askToOpen(nullptr, QStringLiteral("Choose a robot model"),
+                                   QStringLiteral("Robot models (*.json);;All files (*)"));
     if (path.isEmpty()) return;
     const auto model = link::loadRobotModel(path.toStdString());
     if (model) {

@@ -8,7 +8,7 @@
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/scenario_behind.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -37,18 +37,17 @@ void takeGame(const Result<sim::WorldState>& state, link::Scenario& scenario) {
 
 }  // namespace
 
-std::optional<link::Scenario> scenarioBehind(const SourceSwitch& source,
-                                             const MatchController& match,
+std::optional<link::Scenario> scenarioBehind(const ShownMoment& shown, const MatchController& match,
                                              const ReplayController& replay) {
-  const FramePtr frame = source.frame();
-  if (source.kind() == SourceKind::Simulate) {
+  const FramePtr frame = shown.frame();
+  if (shown.source() == &match) {
     link::Scenario scenario = match.scenario();
     const auto archive = match.memory()->archive();
     const auto state = frame && archive ? archive->restore(frame->snapshot.tick) : nothingKnown();
     takeGame(state, scenario);
     return scenario;
   }
-  if (source.kind() != SourceKind::Replay || replay.attachedScenario().empty()) return {};
+  if (shown.source() != &replay || replay.attachedScenario().empty()) return {};
   auto read = link::scenarioFromJson(replay.attachedScenario(), "the session's scenario");
   if (!read) return {};
   takeGame(frame ? recordedState(replay, *frame) : nothingKnown(), *read);

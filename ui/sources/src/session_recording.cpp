@@ -13,17 +13,26 @@
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
 
 const QString folderKey = QStringLiteral("session/folder");
+const QString recordingsKey = QStringLiteral("recordings/");  // by the process that records
 constexpr std::size_t maxLogLines = 10'000;
 
 QString textOf(const Error& error) {
   return QString::fromStdString(error.text());
+}
+
+/// Whether this process is a studio that runs, rather than another program that got the number of
+/// one that was killed.
+bool isStudio(qint64 process) {
+  const QString exe = QStringLiteral("/proc/%1/exe");
+  const QString own = QFile::symLinkTarget(exe.arg(QCoreApplication::applicationPid()));
+  return process != QCoreApplication::applicationPid() &&
+         QFile::symLinkTarget(exe.arg(process)) == own;
 }
 
 std::string programName() {
@@ -44,11 +53,13 @@ QString freePath(const QString& path) {
 }
 
 QString sessionFileName(const QDir& folder, const QString& title, const QDateTime& when) {
-  QString name = title.simplified().left(60);
-  for (QChar& letter : name) {
-    if (!letter.isLetterOrNumber() && !QStringLiteral(" -_").contains(letter)) {
-      letter = QLatin1Char('-');
-    }
+  const QString asked = title.simplified().left(60);
+  QString name;
+  for (qsizetype i = 0; i < asked.size(); ++i) {
+    if (asked[i].isLetterOrNumber() || QStringLiteral(" -_").contains(asked[i]))
+      name += asked[i];
+    else if (i + 1 < asked.size() && asked[i + 1] != QLatin1Char(' '))
+      name += QLatin1Char('-');  // else a space divides already: "Kick-off: 4 against 4"
   }
   if (name.isEmpty()) name = QStringLiteral("session");
   return freePath(
@@ -57,27 +68,32 @@ QString sessionFileName(const QDir& folder, const QString& title, const QDateTim
 }
 
 SessionRecording::SessionRecording(MatchController* controller, LiveController* live,
-                                   SourceSwitch* source, Timeline* timeline, QSettings* settings,
-                                   QObject* parent)
+                                   ShownMoment* shown, QSettings* settings, QObject* parent)
     : QObject(parent),
       m_controller(controller),
       m_live(live),
-      m_source(source),
-      m_timeline(timeline),
+      m_shown(shown),
       m_settings(settings),
       m_timer(new QTimer(this)) {
   constexpr int healthMilliseconds = 500;
   m_timer->setInterval(healthMilliseconds);
   connect(m_timer, &QTimer::timeout, this, &SessionRecording::checkHealth);
   connect(controller, &MatchController::ending, this, [this] {
-    if (m_recorder && !m_recorder->live) finish(true);
+    if (!m_recorder || m_recorder->live) return;
+    m_endedPath = m_path;
+    finish(true);
   });
-  connect(controller, &MatchController::opened, this, &SessionRecording::changed);
-  connect(controller, &MatchController::scenarioChanged, this, [this] {
-    m_log.clear();
+  connect(controller, &MatchController::preparing, this, &SessionRecording::goOn);
+  connect(controller, &MatchController::opened, this, [this] {
+    if (m_recorder && !m_recorder->live && !m_controller->isOpen()) finish(true);
     emit changed();
   });
-  connect(source, &SourceSwitch::changed, this, &SessionRecording::changed);
+  connect(controller, &MatchController::scenarioChanged, this, [this] {
+    m_log.clear();
+    m_endedPath.clear();
+    emit changed();
+  });
+  connect(shown, &ShownMoment::sourceChosen, this, &SessionRecording::changed);
   connect(controller, &MatchController::logReceived, this,
           [this](const std::vector<LogLine>& lines) {
             for (const LogLine& line : lines) {
@@ -85,8 +101,8 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
               if (m_log.size() > maxLogLines) m_log.pop_front();
             }
           });
-  connect(timeline, &Timeline::bookmarked, this, [this](const link::MatchEvent& event) {
-    if (!m_recorder || m_recorder->live != (m_source->kind() == SourceKind::Live)) return;
+  connect(shown, &ShownMoment::bookmarked, this, [this](const link::MatchEvent& event) {
+    if (!m_recorder || m_recorder->live != (m_shown->source() == m_live)) return;
     m_recorder->append(event);
   });
 }
@@ -115,8 +131,8 @@ void SessionRecording::setFolder(const QString& folder) {
 }
 
 bool SessionRecording::isPossible() const {
-  if (m_source->kind() == SourceKind::Live) return m_live->isListening();
-  return m_source->kind() == SourceKind::Simulate && m_controller->isOpen();
+  if (m_shown->source() == m_live) return m_live->isListening();
+  return m_shown->source() == m_controller && m_controller->isOpen();
 }
 
 QString SessionRecording::newPath(const QString& title) {
@@ -134,12 +150,16 @@ bool SessionRecording::makeFolder(const QDir& folder) {
 }
 
 QString SessionRecording::title() const {
-  if (m_source->kind() == SourceKind::Live) return QStringLiteral("live");
+  return m_shown->source() == m_live ? QStringLiteral("live") : matchTitle();
+}
+
+QString SessionRecording::matchTitle() const {
   const link::Scenario& scenario = m_controller->scenario();
   return QString::fromStdString(scenario.title.empty() ? scenario.name : scenario.title);
 }
 
-Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& path) {
+Result<SessionRecording::Recorder> SessionRecording::recordMatch(
+    const QString& path, std::vector<std::shared_ptr<link::TickObserver>>* observers) {
   link::RecorderOptions options;
   options.program = programName();
   options.writer = m_writing;
@@ -148,7 +168,10 @@ Result<SessionRecording::Recorder> SessionRecording::recordMatch(const QString& 
                                           m_controller->memory()->sampler(), options);
   if (!made) return tl::unexpected(made.error());
   const std::shared_ptr<link::MatchRecorder> recorder = *made;
-  m_controller->observe(recorder);
+  if (observers != nullptr)
+    observers->push_back(recorder);
+  else
+    m_controller->observe(recorder);
   return Recorder{false, [recorder] { return recorder->status(); },
                   [recorder](const link::MatchEvent& event) { recorder->append(event); },
                   [controller = m_controller, recorder] {
@@ -194,8 +217,40 @@ void SessionRecording::startInto(const QString& path) {
   }
 }
 
-void SessionRecording::begin(const QString& path) {
-  auto made = m_source->kind() == SourceKind::Live ? recordLive(path) : recordMatch(path);
+// The match that replaces a recorded one is recorded from its first tick.
+void SessionRecording::goOn(std::vector<std::shared_ptr<link::TickObserver>>& observers) {
+  if (m_endedPath.isEmpty()) return;
+  const QString ended = std::exchange(m_endedPath, {});
+  begin(sessionFileName(QFileInfo(ended).dir(), matchTitle(), QDateTime::currentDateTime()),
+        &observers);
+}
+
+void SessionRecording::keepPath(const QString& path) {
+  const QString key = recordingsKey + QString::number(QCoreApplication::applicationPid());
+  if (path.isEmpty())
+    m_settings->remove(key);
+  else
+    m_settings->setValue(key, path);
+  m_settings->sync();  // the studio may be killed before it would happen by itself
+}
+
+QStringList SessionRecording::drainLost() {
+  QStringList lost;
+  m_settings->beginGroup(recordingsKey.chopped(1));
+  for (const QString& process : m_settings->childKeys()) {
+    if (isStudio(process.toLongLong())) continue;
+    const QString path = m_settings->value(process).toString();
+    if (QFile::exists(path)) lost << path;
+    m_settings->remove(process);
+  }
+  m_settings->endGroup();
+  return lost;
+}
+
+void SessionRecording::begin(const QString& path,
+                             std::vector<std::shared_ptr<link::TickObserver>>* observers) {
+  const bool live = observers == nullptr && m_shown->source() == m_live;
+  auto made = live ? recordLive(path) : recordMatch(path, observers);
   if (!made) {
     emit failed(QStringLiteral(
                     "Cannot record: %1. Choose another folder in Timeline > Folder for recordings…")
@@ -204,6 +259,7 @@ void SessionRecording::begin(const QString& path) {
   }
   m_recorder = std::move(*made);
   m_path = path;
+  keepPath(path);
   m_reported.clear();
   m_timer->start();
   emit changed();
@@ -217,6 +273,7 @@ void SessionRecording::finish(bool matchEnds) {
   if (!m_recorder) return;
   const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
   m_timer->stop();
+  keepPath({});
   recorder.detach();
   m_worker.start([this, recorder, path = m_path, matchEnds] {
     const auto done = recorder.finish();
@@ -228,8 +285,13 @@ void SessionRecording::finish(bool matchEnds) {
                 .arg(path, textOf(done.error())));
         return;
       }
-      if (matchEnds) emit noted(QStringLiteral("The recording ended with the match: %1").arg(path));
       emit saved(path);
+      if (!matchEnds) return;
+      emit noted(m_recorder && !m_recorder->live
+                     ? QStringLiteral("Another match began, so recording goes on in %1. The file "
+                                      "of the match before is complete: %2")
+                           .arg(m_path, path)
+                     : QStringLiteral("The recording ended with the match: %1").arg(path));
     });
   });
   emit changed();
@@ -254,6 +316,7 @@ void SessionRecording::checkHealth() {
   }
   const Recorder recorder = *std::exchange(m_recorder, std::nullopt);
   m_timer->stop();
+  keepPath({});
   recorder.detach();
   m_worker.start([recorder] { static_cast<void>(recorder.finish()); });
   emit failed(problem);
@@ -268,11 +331,11 @@ void SessionRecording::warnOf(const telemetry::SessionStatus& status) {
 }
 
 SessionMaker SessionRecording::recentPast(double seconds) const {
-  const auto rows = m_source->series();
-  const bool live = m_source->kind() == SourceKind::Live;
-  if (!rows || !rows->range() || m_source->kind() == SourceKind::Replay) return {};
+  const auto rows = m_shown->series();
+  const bool live = m_shown->source() == m_live;
+  if (!rows || !rows->range() || !m_shown->kind().hasPresent) return {};
   link::RecentPast past;
-  const auto& events = m_timeline->events()->events();
+  const auto& events = m_shown->events()->events();
   past.events.assign(events.begin(), events.end());
   std::shared_ptr<const link::StateArchive> archive;
   std::shared_ptr<const link::LiveMemory> received;

@@ -9,12 +9,12 @@
 #include <set>
 
 #include <telemetry/session/session_time.h>
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/playback.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -28,10 +28,10 @@ QAction* make(QObject* parent, const char* id, const char* text, const char* ico
 
 }  // namespace
 
-TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, AbandonedFuture* future,
+TimelineActions::TimelineActions(ShownMoment* shown, LinkedTime* plots, AbandonedFuture* future,
                                  QObject* parent)
     : QObject(parent),
-      m_timeline(timeline),
+      m_shown(shown),
       m_plots(plots),
       m_now(make(this, "timelineNow", "Back to &now", "media-seek-forward")),
       m_oldest(make(this, "oldestMoment", "&Oldest moment")),
@@ -61,46 +61,50 @@ TimelineActions::TimelineActions(Timeline* timeline, LinkedTime* plots, Abandone
     connect(future, &AbandonedFuture::changed, this, showFuture);
   }
   showFuture();
-  connect(m_now, &QAction::triggered, timeline, &Timeline::goLive);
-  connect(m_oldest, &QAction::triggered, timeline, [timeline] {
-    if (const auto range = timeline->available()) timeline->seek(range->begin);
+  connect(m_now, &QAction::triggered, shown, &ShownMoment::goLive);
+  connect(m_oldest, &QAction::triggered, shown, [shown] {
+    if (const auto range = shown->available()) shown->seek(range->begin);
   });
   connect(m_goTo, &QAction::triggered, this, [this] { askForTime(); });
-  connect(m_next, &QAction::triggered, timeline, &Timeline::goToNextEvent);
-  connect(m_previous, &QAction::triggered, timeline, &Timeline::goToPreviousEvent);
+  connect(m_next, &QAction::triggered, shown, &ShownMoment::goToNextEvent);
+  connect(m_previous, &QAction::triggered, shown, &ShownMoment::goToPreviousEvent);
   connect(m_bookmark, &QAction::triggered, this,
-          [this] { emit bookmarkAdded(m_timeline->addBookmark()); });
+          [this] { emit bookmarkAdded(m_shown->addBookmark()); });
   const auto [back, forward, secondBack, secondForward] = m_steps;
-  connect(back, &QAction::triggered, timeline, [timeline] { timeline->step(-1); });
-  connect(forward, &QAction::triggered, timeline, [timeline] { timeline->step(1); });
-  connect(secondBack, &QAction::triggered, timeline,
-          [timeline] { timeline->seek(timeline->shownTime() - 1.0); });
-  connect(secondForward, &QAction::triggered, timeline,
-          [timeline] { timeline->seek(timeline->shownTime() + 1.0); });
+  connect(back, &QAction::triggered, shown, [shown] { shown->step(-1); });
+  connect(forward, &QAction::triggered, shown, [shown] { shown->step(1); });
+  connect(secondBack, &QAction::triggered, shown, [shown] { shown->seek(shown->time() - 1.0); });
+  connect(secondForward, &QAction::triggered, shown, [shown] { shown->seek(shown->time() + 1.0); });
   connect(m_selectVisible, &QAction::triggered, this,
-          [this] { m_timeline->setSelection(m_plots->range()); });
-  connect(m_clearRange, &QAction::triggered, timeline, [timeline] { timeline->setSelection({}); });
+          [this] { m_shown->setSelection(m_plots->range()); });
+  connect(m_clearRange, &QAction::triggered, shown, [shown] { shown->setSelection({}); });
   connect(m_loop, &QAction::triggered, this, [this](bool on) {
-    if (on && !m_timeline->selection() && m_plots != nullptr) {
-      m_timeline->setSelection(m_plots->range());
+    if (on && !m_shown->selection() && m_plots != nullptr) {
+      m_shown->setSelection(m_plots->range());
     }
-    m_timeline->setLooping(on);
+    m_shown->setLooping(on);
     refresh();
   });
-  connect(timeline, &Timeline::selectionChanged, this, &TimelineActions::refresh);
-  connect(timeline, &Timeline::lookingBackChanged, this, &TimelineActions::refresh);
-  connect(timeline, &Timeline::sourceChanged, this, &TimelineActions::refresh);
+  connect(shown, &ShownMoment::selectionChanged, this, &TimelineActions::refresh);
+  connect(shown, &ShownMoment::lookingBackChanged, this, &TimelineActions::refresh);
+  connect(shown, &ShownMoment::sourceChanged, this, &TimelineActions::refresh);
   refresh();
 }
 
 void TimelineActions::refresh() {
-  const bool past = m_timeline->isLookingBack() || m_timeline->isRecording();
-  m_now->setEnabled(m_timeline->isLookingBack());
-  m_steps[1]->setEnabled(past);
-  m_steps[3]->setEnabled(past);
-  m_clearRange->setEnabled(m_timeline->selection().has_value());
+  const bool past = m_shown->chosenTime().has_value();
+  const QString isNewest = past ? QString() : QStringLiteral("The newest moment is shown already");
+  enableUnless(*m_now, !m_shown->kind().hasPresent
+                           ? QStringLiteral("A recording has ended: it has no newest moment")
+                           : isNewest);
+  enableUnless(*m_steps[1], isNewest);
+  enableUnless(*m_steps[3], isNewest);
+  enableUnless(*m_clearRange, m_shown->selection()
+                                  ? QString()
+                                  : QStringLiteral("No range is selected. Drag with Shift on the "
+                                                   "timeline to select one"));
   m_selectVisible->setEnabled(m_plots != nullptr);
-  m_loop->setChecked(m_timeline->isLooping());
+  m_loop->setChecked(m_shown->isLooping());
 }
 
 void TimelineActions::askForTime(const QString& typed, const QString& problem) {
@@ -109,20 +113,20 @@ void TimelineActions::askForTime(const QString& typed, const QString& problem) {
   ask->setObjectName(QStringLiteral("goToTime"));
   ask->setAttribute(Qt::WA_DeleteOnClose);
   ask->setWindowTitle(QStringLiteral("Go to time"));
-  const QString forms = m_timeline->clock() ? QStringLiteral("Time of day, such as 15:03:12:")
-                                            : QStringLiteral("Time: 78.7, 1:18.7 or 0:01:18.7");
+  const QString forms = m_shown->clock() ? QStringLiteral("Time of day, such as 15:03:12:")
+                                         : QStringLiteral("Time: 78.7, 1:18.7 or 0:01:18.7");
   ask->setLabelText(problem.isEmpty() ? forms : problem);
   ask->setTextValue(typed);
   connect(ask, &QInputDialog::textValueSelected, this, [this](const QString& text) {
-    const auto range = m_timeline->available();
+    const auto range = m_shown->available();
     if (!range) return;
-    const auto clock = m_timeline->clock();
+    const auto clock = m_shown->clock();
     const telemetry::WallTime start(
         std::chrono::milliseconds(clock ? clock->toMSecsSinceEpoch() : 0));
     const auto time = telemetry::sessionTime(text.trimmed().toStdString(), start, *range,
                                              clock ? TimeForms::Clock : TimeForms::Session);
     if (time) {
-      m_timeline->seek(*time);
+      m_shown->seek(*time);
     } else {
       askForTime(text, QString::fromStdString(time.error().message));
     }
@@ -131,30 +135,31 @@ void TimelineActions::askForTime(const QString& typed, const QString& problem) {
 }
 
 void TimelineActions::change(const std::function<void(EventFilter&)>& how) {
-  EventFilter filter = m_timeline->filter();
+  EventFilter filter = m_shown->filter();
   how(filter);
-  m_timeline->setFilter(filter);
+  m_shown->setFilter(filter);
 }
 
 void TimelineActions::fillFilter(QMenu* menu) {
   menu->clear();
-  const EventFilter& now = m_timeline->filter();
+  const EventFilter& now = m_shown->filter();
   std::map<link::MatchEventKind, int> kinds;
-  const FramePtr frame = m_timeline->frame();
-  std::set<std::string> names = now.robots;
-  std::set<std::pair<RobotOrder, std::string>> robots;  // as they are listed
+  const FramePtr frame = m_shown->frame();
+  std::map<RobotUid, std::string> names;  // each as it was called last
   for (const link::MatchEventKind hidden : now.hidden) kinds[hidden];
-  for (const link::MatchEvent& event : m_timeline->events()->events()) {
+  for (const link::MatchEvent& event : m_shown->events()->events()) {
     if (!link::isMarked(event)) continue;
     ++kinds[event.kind];
-    if (event.name.empty()) continue;
-    names.erase(event.name);
-    robots.emplace(orderOf(event.robot, frame ? frame->teams : link::Teams()), event.name);
+    if (event.robot != RobotUid{}) names[event.robot] = event.name;
   }
-  for (const std::string& name : names) robots.emplace(RobotOrder(), name);
-  QAction* all =
-      menu->addAction(QStringLiteral("&All"), this, [this] { m_timeline->setFilter({}); });
-  all->setEnabled(now.isOn());
+  std::set<std::pair<RobotOrder, RobotUid>> robots;  // as they are listed
+  for (auto& [uid, name] : names) {
+    const link::RobotFrame* robot = frame ? frame->robot(uid) : nullptr;
+    if (robot != nullptr) name = robot->name;
+    robots.emplace(robot != nullptr ? orderOf(robot->key, frame->teams) : RobotOrder(), uid);
+  }
+  QAction* all = menu->addAction(QStringLiteral("&All"), this, [this] { m_shown->setFilter({}); });
+  enableUnless(*all, now.isOn() ? QString() : QStringLiteral("All events are shown"));
   menu->addSeparator();
   for (const auto& [kind, count] : kinds) {
     const std::string_view predicate = link::info(kind).predicate;
@@ -174,9 +179,10 @@ void TimelineActions::fillFilter(QMenu* menu) {
   }
   if (robots.empty()) return;
   menu->addSeparator();
-  for (const auto& [order, name] : robots) {
-    const std::string& robot = name;
-    QAction* action = menu->addAction(QStringLiteral("Only %1").arg(QString::fromStdString(robot)));
+  for (const auto& [order, uid] : robots) {
+    const RobotUid robot = uid;  // clang 14 captures no structured binding
+    QAction* action =
+        menu->addAction(QStringLiteral("Only %1").arg(QString::fromStdString(names[robot])));
     action->setCheckable(true);
     action->setChecked(now.robots.contains(robot));
     connect(action, &QAction::toggled, this, [this, robot](bool on) {

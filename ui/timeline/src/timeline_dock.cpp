@@ -5,9 +5,10 @@
 #include <QMenu>
 #include <QToolButton>
 
+#include <ui/base/action_reason.h>
 #include <ui/base/theme.h>
 #include <ui/sources/compared_session.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
 
 #include "timeline_strip.h"
@@ -19,8 +20,8 @@ class TimelineDock : public QWidget {
  public:
   TimelineDock(const TimelineContext& context, QWidget* parent)
       : QWidget(parent),
-        m_timeline(context.timeline),
-        m_strip(new TimelineStrip(context.timeline, context.time, this)),
+        m_shown(context.shown),
+        m_strip(new TimelineStrip(context.shown, context.time, this)),
         m_now(new QToolButton(this)) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     m_now->setObjectName(QStringLiteral("now"));
@@ -34,11 +35,11 @@ class TimelineDock : public QWidget {
     row->addWidget(m_strip, 1);
     row->addWidget(m_now);
     connect(m_now, &QToolButton::clicked, this, [this] {
-      m_timeline->goLive();
+      m_shown->goLive();
       showNow();
     });
-    connect(m_timeline, &Timeline::lookingBackChanged, this, &TimelineDock::showNow);
-    connect(m_timeline, &Timeline::sourceChanged, this, &TimelineDock::showNow);
+    connect(m_shown, &ShownMoment::lookingBackChanged, this, &TimelineDock::showNow);
+    connect(m_shown, &ShownMoment::sourceChanged, this, &TimelineDock::showNow);
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
     connect(m_strip, &TimelineStrip::menuRequested, this,
@@ -79,20 +80,22 @@ class TimelineDock : public QWidget {
     }
     QAction* byTime =
         menu->addAction(QStringLiteral("Align by &time"), session, &ComparedSession::alignByTime);
-    byTime->setEnabled(session->offset() != 0.0 || session->here() || session->there());
+    enableUnless(*byTime, session->isAlignedByTime()
+                              ? QStringLiteral("The sessions are aligned by time")
+                              : QString());
     menu->addAction(QStringLiteral("St&op comparing"), session, &ComparedSession::stop);
     menu->addSeparator();
   }
   void showNow() {
-    m_now->setVisible(!m_timeline->isRecording());
-    m_now->setChecked(m_timeline->isLookingBack());
-    m_now->setEnabled(m_timeline->isLookingBack());
-    m_now->setToolTip(m_timeline->isLookingBack()
+    m_now->setVisible(m_shown->kind().hasPresent);
+    m_now->setChecked(m_shown->isLookingBack());
+    m_now->setEnabled(m_shown->isLookingBack());
+    m_now->setToolTip(m_shown->isLookingBack()
                           ? QStringLiteral("Back to now (Ctrl+End)")
                           : QStringLiteral("The window shows what happens now"));
   }
 
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   TimelineStrip* m_strip;
   QToolButton* m_now;
 };

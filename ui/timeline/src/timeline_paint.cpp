@@ -12,7 +12,7 @@
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "timeline_strip.h"
 
@@ -51,7 +51,7 @@ void TimelineStrip::paintEvent(QPaintEvent*) {
 void TimelineStrip::paintBand(QPainter& painter) const {
   const QRectF band = bandRect();
   drawRoundBox(painter, band, 2, theme().view, theme().innerLine);
-  const auto held = m_timeline->available();
+  const auto held = m_shown->available();
   if (!held) return;
   const double left = std::max(m_axis.pixel(held->begin), band.left());
   const double right = std::min(m_axis.pixel(held->end), band.right());
@@ -79,7 +79,7 @@ void TimelineStrip::paintBranch(QPainter& painter) const {
   painter.drawRoundedRect(row.adjusted(0.5, 0.5, -0.5, -0.5), 2, 2);
   painter.setOpacity(0.5);
   for (const link::MatchEvent& event : m_future->events().events()) {
-    if (!m_timeline->filter().shows(event)) continue;
+    if (!m_shown->filter().shows(event)) continue;
     const double x = m_axis.pixel(event.time);
     if (x < row.left() || x > row.right()) continue;
     stem(painter, x, row.top() + 2, row.bottom() - 2, markColor(link::info(event.kind).shape), 1.4);
@@ -104,10 +104,20 @@ void TimelineStrip::paintWindow(QPainter& painter) const {
   QColor ground = theme().accentFill;
   ground.setAlphaF(isDarkTheme() ? 0.65F : 0.35F);
   drawRoundBox(painter, *window, 2, ground, theme().accentLine);
+  // The handle below: a bar with a knob at each end.
+  const QRectF handle = *rangeHandle();
+  const double knob = scaled(this, 4);
+  const QRectF bar(handle.left(), handle.center().y() - 1, handle.width(), 2);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(theme().accentLine);
+  painter.drawRect(bar);
+  for (const double x : {handle.left(), handle.right() - knob}) {
+    painter.drawRoundedRect(QRectF(x, handle.top(), knob, handle.height()), 1.5, 1.5);
+  }
 }
 
 void TimelineStrip::paintRange(QPainter& painter) const {
-  const auto range = m_timeline->selection();
+  const auto range = m_shown->selection();
   if (!range) return;
   const QRectF band = bandRect();
   const double left = std::clamp(m_axis.pixel(range->begin), band.left(), band.right());
@@ -116,7 +126,7 @@ void TimelineStrip::paintRange(QPainter& painter) const {
   ground.setAlphaF(0.14F);
   painter.fillRect(QRectF(left, 0, right - left, band.bottom()), ground);
   // A bracket, so that the range can be told without colour.
-  painter.setPen(QPen(theme().accentLine, m_timeline->isLooping() ? 2.0 : 1.0));
+  painter.setPen(QPen(theme().accentLine, m_shown->isLooping() ? 2.0 : 1.0));
   const double arm = scaled(this, 5);
   for (const auto& [x, inwards] : {std::pair(left, arm), std::pair(right, -arm)}) {
     painter.drawPolyline(
@@ -126,16 +136,16 @@ void TimelineStrip::paintRange(QPainter& painter) const {
 }
 
 void TimelineStrip::paintAxis(QPainter& painter) const {
-  const QRect band = bandRect();
   painter.setFont(themeFont(TypeRole::Small));
   const QFontMetrics metrics(painter.font());
   const int half = metrics.horizontalAdvance(QStringLiteral("00:00:00")) / 2 + 2;
   painter.setPen(theme().secondaryText);
   for (const AxisTick& tick :
        axisTicks(m_axis, std::max(scaled(this, tickSpacing), 2 * half + scaled(this, 24)),
-                 m_timeline->clock())) {
+                 m_shown->clock())) {
     const double x = m_axis.pixel(tick.time);
-    QRectF place(x - half, band.bottom() + 1, 2 * half, height() - band.bottom() - 1);
+    const double top = height() - scaled(this, axisHeight);
+    QRectF place(x - half, top, 2 * half, height() - top);
     // The first and the last label stay on the widget.
     const double edge = scaled(this, 4);
     const bool atEdge = place.left() < edge;
@@ -175,7 +185,7 @@ void TimelineStrip::paintMarks(QPainter& painter) {
   };
   const QRect band = bandRect();
   const double stemEnd = band.top() + 1;
-  row(marks(), m_timeline->events()->events(), scaled(this, 13),
+  row(marks(), m_shown->events()->events(), scaled(this, 13),
       m_compared != nullptr ? marksRect().bottom() : stemEnd, 1.0);
   if (m_compared == nullptr) return;
   const QRect place = comparedRect();
@@ -194,21 +204,21 @@ void TimelineStrip::paintMarks(QPainter& painter) {
 void TimelineStrip::paintMoment(QPainter& painter) const {
   const QRect band = bandRect();
   const auto inside = [&band](double x) { return x >= band.left() - 1 && x <= band.right() + 2; };
-  const bool back = m_timeline->isLookingBack() || m_timeline->isRecording();
+  const auto chosen = m_shown->chosenTime();
   if (m_plots != nullptr && m_plots->cursor()) {
     const double x = m_axis.pixel(*m_plots->cursor());
     if (inside(x)) stem(painter, x, band.top() - 2, band.bottom() + 1, theme().secondaryText, 1.0);
   }
-  if (!m_timeline->isRecording() && m_timeline->now() > 0.0) {
-    const double x = m_axis.pixel(m_timeline->now());
+  if (m_shown->kind().hasPresent && m_shown->now() > 0.0) {
+    const double x = m_axis.pixel(m_shown->now());
     if (inside(x)) {
       stem(painter, x, band.top() - scaled(this, 8), band.bottom() + scaled(this, 3),
-           back ? theme().secondaryText : theme().accentLine, 2.0);
+           chosen ? theme().secondaryText : theme().accentLine, 2.0);
     }
   }
-  if (!back) return;
+  if (!chosen) return;
   // The moment shown: a handle, because it is what is dragged.
-  const double x = m_axis.pixel(m_timeline->shownTime());
+  const double x = m_axis.pixel(*chosen);
   if (!inside(x)) return;
   stem(painter, x, scaled(this, 4), band.bottom() + scaled(this, 3), theme().accentLine, 2.0);
   const double half = scaled(this, 5);
@@ -221,7 +231,7 @@ void TimelineStrip::paintMoment(QPainter& painter) const {
 
 void TimelineStrip::editNote(int row) {
   finishNote(true);
-  const EventList* list = m_timeline->events();
+  const EventList* list = m_shown->events();
   if (row < 0 || row >= list->rowCount()) return;
   m_noteTime = list->at(row).time;
   m_note = new QLineEdit(QString::fromStdString(list->at(row).detail), this);
@@ -261,7 +271,7 @@ void TimelineStrip::finishNote(bool keep) {
   QLineEdit* note = std::exchange(m_note, nullptr);
   qApp->removeEventFilter(this);
   const bool hadFocus = note->hasFocus();
-  if (keep) m_timeline->setNote(m_noteTime, note->text());
+  if (keep) m_shown->setNote(m_noteTime, note->text());
   note->hide();
   note->deleteLater();
   if (hadFocus) setFocus();

@@ -13,8 +13,7 @@
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
-#include <ui/sources/playback.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -22,13 +21,14 @@ namespace {
 constexpr double narrowest = 0.05;  // s shown
 constexpr double widest = 7 * 86400.0;
 constexpr double markReach = 7.0;  // px of the mock
+constexpr int narrowestHandle = 26, narrowestWindow = 12;
 // What moves by itself moves a pixel or two in that time; more pictures of it only cost.
 constexpr Beat::Milliseconds calmly{50};
 
 }  // namespace
 
-TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* parent)
-    : QWidget(parent), m_timeline(timeline), m_plots(plots) {
+TimelineStrip::TimelineStrip(ShownMoment* shown, LinkedTime* plots, QWidget* parent)
+    : QWidget(parent), m_shown(shown), m_plots(plots) {
   setObjectName(QStringLiteral("timelineStrip"));
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
@@ -39,16 +39,17 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
     fitAxis();
     updateCalmly();
   };
-  connect(timeline, &Timeline::moved, this, refresh);
-  connect(timeline, &Timeline::sourceChanged, this, [this] {
+  connect(shown, &ShownMoment::moved, this, refresh);
+  connect(shown, &ShownMoment::newestChanged, this, refresh);
+  connect(shown, &ShownMoment::sourceChanged, this, [this] {
     finishNote(false);
     m_marksOf = nullptr;
     m_showsAll = true;
     fitAxis();
     update();
   });
-  connect(timeline, &Timeline::selectionChanged, this, qOverload<>(&QWidget::update));
-  connect(timeline, &Timeline::eventFilterChanged, this, [this] {
+  connect(shown, &ShownMoment::selectionChanged, this, qOverload<>(&QWidget::update));
+  connect(shown, &ShownMoment::eventFilterChanged, this, [this] {
     m_marksOf = nullptr;
     update();
   });
@@ -57,9 +58,8 @@ TimelineStrip::TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* par
     connect(plots, &LinkedTime::cursorChanged, this, qOverload<>(&QWidget::update));
   }
   constexpr double closer = 1 / 1.5, farther = 1.5;
-  addZoom("timelineZoomIn", "Zoom timeline in", [this] { zoom(closer, m_timeline->shownTime()); });
-  addZoom("timelineZoomOut", "Zoom timeline out",
-          [this] { zoom(farther, m_timeline->shownTime()); });
+  addZoom("timelineZoomIn", "Zoom timeline in", [this] { zoom(closer, m_shown->time()); });
+  addZoom("timelineZoomOut", "Zoom timeline out", [this] { zoom(farther, m_shown->time()); });
   addZoom("timelineAll", "Show the whole timeline", [this] { showAll(); });
   fitAxis();
 }
@@ -74,7 +74,7 @@ void TimelineStrip::addZoom(const char* id, const char* text, const std::functio
 
 // A hand on the timeline or on the plots is followed at once.
 void TimelineStrip::updateCalmly() {
-  const bool byItself = m_grab == Grab::Nothing && !m_timeline->isLookingBack() &&
+  const bool byItself = m_grab == Grab::Nothing && !m_shown->isLookingBack() &&
                         (m_plots == nullptr || m_plots->isFollowing());
   if (!byItself)
     update();
@@ -127,8 +127,9 @@ QSize TimelineStrip::minimumSizeHint() const {
 
 QRect TimelineStrip::bandRect() const {
   const int left = scaled(this, 12);
-  const int high = scaled(this, 12);
-  return {left, height() - scaled(this, 17) - high, std::max(width() - 2 * left, 1), high};
+  const int high = scaled(this, bandHeight);
+  return {left, height() - scaled(this, axisHeight) - scaled(this, railHeight) - high,
+          std::max(width() - 2 * left, 1), high};
 }
 
 QRect TimelineStrip::comparedRect() const {
@@ -153,6 +154,16 @@ std::optional<QRectF> TimelineStrip::windowRect() const {
   return QRectF(left, band.top(), std::max(right - left, 2.0), band.height());
 }
 
+std::optional<QRectF> TimelineStrip::rangeHandle() const {
+  const auto window = windowRect();
+  if (!window) return {};
+  const QRectF band = bandRect();
+  const double wide =
+      std::min(std::max(window->width(), double(scaled(this, narrowestHandle))), band.width());
+  const double left = std::clamp(window->center().x() - wide / 2, band.left(), band.right() - wide);
+  return QRectF(left, band.bottom() + 1, wide, scaled(this, railHeight) - 1);
+}
+
 void TimelineStrip::clampShown(telemetry::TimeRange& range) const {
   const double span = std::clamp(range.end - range.begin, narrowest, widest);
   const double middle = (range.begin + range.end) / 2;
@@ -163,14 +174,14 @@ void TimelineStrip::fitAxis() {
   const QRect band = bandRect();
   m_axis.left = band.left();
   m_axis.width = band.width();
-  const auto there = m_timeline->available();
-  double now = std::max(m_timeline->now(), there ? there->end : 0.0);
+  const auto there = m_shown->available();
+  double now = std::max(m_shown->now(), there ? there->end : 0.0);
   if (m_showsAll && branchHeight() > 0) now = std::max(now, m_future->end());
   if (m_showsAll) {
     double begin = there ? there->begin : now;
-    const auto& events = m_timeline->events()->events();
+    const auto& events = m_shown->events()->events();
     if (!events.empty()) begin = std::min(begin, events.front().time);
-    if (m_timeline->isRecording()) {
+    if (!m_shown->kind().hasPresent) {
       constexpr double nothing = 30.0;  // s, without a session
       m_axis.shown = {begin, there ? std::max(now, begin + narrowest) : begin + nothing};
       return;
@@ -181,8 +192,7 @@ void TimelineStrip::fitAxis() {
     const double wanted = std::max((now - begin) * room, least);
     const double step = roundStep(wanted / pieces);
     m_axis.shown = {begin, begin + std::ceil(wanted / step) * step};
-  } else if (!m_timeline->isRecording() && !m_timeline->isLookingBack() &&
-             m_grab == Grab::Nothing) {
+  } else if (!m_shown->chosenTime() && m_grab == Grab::Nothing) {
     // A narrow view in which now stood goes on with now.
     const double span = m_axis.shown.end - m_axis.shown.begin;
     constexpr double margin = 0.1;
@@ -216,13 +226,13 @@ MarkSizes TimelineStrip::markSizes() const {
 }
 
 const std::vector<EventMark>& TimelineStrip::marks() {
-  const EventList* list = m_timeline->events();
+  const EventList* list = m_shown->events();
   if (list != m_marksOf || list->revision() != m_marksRevision || !(m_marksAxis == m_axis)) {
     m_marksOf = list;
     m_marksRevision = list->revision();
     m_marksAxis = m_axis;
     m_marks = layOutMarks(list->events(), m_axis, markSizes(),
-                          QFontMetrics(themeFont(TypeRole::Small)), m_timeline->filter());
+                          QFontMetrics(themeFont(TypeRole::Small)), m_shown->filter());
   }
   return m_marks;
 }
@@ -232,7 +242,7 @@ std::vector<EventMark> TimelineStrip::comparedMarks() const {
   TimeAxis moved = m_axis;
   moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
   return layOutMarks(m_compared->events(), moved, markSizes(),
-                     QFontMetrics(themeFont(TypeRole::Small)), m_timeline->filter());
+                     QFontMetrics(themeFont(TypeRole::Small)), m_shown->filter());
 }
 
 const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
@@ -254,18 +264,21 @@ const EventMark* TimelineStrip::markAt(QPointF at) {
 
 QString TimelineStrip::tipAt(QPointF at) {
   if (branchRect().contains(at.toPoint())) {
-    const auto clock = m_timeline->clock();
+    const auto clock = m_shown->clock();
     return QStringLiteral("Abandoned future, %1 to %2")
         .arg(momentText(m_future->begin(), 0, clock), momentText(m_future->end(), 0, clock));
   }
+  if (const auto handle = rangeHandle(); handle && handle->contains(at)) {
+    return QStringLiteral("Time range of the plots. Drag to move it, drag an end to change it");
+  }
   const EventMark* mark = markAt(at);
-  if (mark == nullptr) return momentText(m_axis.time(at.x()), 1, m_timeline->clock());
+  if (mark == nullptr) return momentText(m_axis.time(at.x()), 1, m_shown->clock());
   QStringList lines;
   constexpr int most = 8;
   for (int row = mark->first; row <= mark->last && lines.size() < most; ++row) {
-    const link::MatchEvent& e = m_timeline->events()->at(row);
-    if (!m_timeline->filter().shows(e)) continue;
-    lines << momentText(e.time, 2, m_timeline->clock()) + QStringLiteral("  ") +
+    const link::MatchEvent& e = m_shown->events()->at(row);
+    if (!m_shown->filter().shows(e)) continue;
+    lines << momentText(e.time, 2, m_shown->clock()) + QStringLiteral("  ") +
                  QString::fromStdString(sentenceOf(e)).toHtmlEscaped();
   }
   if (mark->merged > most)
@@ -289,24 +302,19 @@ void TimelineStrip::resizeEvent(QResizeEvent*) {
 
 namespace {
 
-constexpr double edgeReach = 4.0;  // px of the mock: where a window's edge is taken
+constexpr double edgeReach = 7.0;  // px of the mock: where an end of the handle is taken
 
 }  // namespace
 
 TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys) const {
   if (keys & Qt::ShiftModifier) return Grab::Range;
   if (comparedRect().contains(at.toPoint())) return Grab::Compared;
-  const auto window = windowRect();
-  const double reach = scaled(this, edgeReach);
-  if (window && at.y() >= window->top() && at.y() < window->bottom() + 1 &&
-      at.x() >= window->left() - reach && at.x() <= window->right() + reach) {
-    // The middle of a small window stays free for moving it.
-    const double edge = std::min(reach, window->width() / 4);
-    if (at.x() < window->left() + edge) return Grab::WindowBegin;
-    if (at.x() > window->right() - edge) return Grab::WindowEnd;
-    return Grab::Window;
-  }
-  return Grab::Moment;
+  const auto handle = rangeHandle();
+  if (!handle || !handle->adjusted(-1, 0, 1, 1).contains(at)) return Grab::Moment;
+  const double end = scaled(this, edgeReach);
+  if (at.x() < handle->left() + end) return Grab::WindowBegin;
+  if (at.x() > handle->right() - end) return Grab::WindowEnd;
+  return Grab::Window;
 }
 
 void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
@@ -344,7 +352,7 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
   m_grab = grabAt(m_pressedAt, event->modifiers());
   if (m_grab == Grab::Moment) {
     const EventMark* mark = markAt(m_pressedAt);
-    m_timeline->seek(mark != nullptr ? m_timeline->events()->at(mark->row).time : m_grabTime);
+    m_shown->seek(mark != nullptr ? m_shown->events()->at(mark->row).time : m_grabTime);
   } else if (m_grab == Grab::Compared) {
     m_grabOffset = m_comparedOffset;
   } else if (m_grab != Grab::Range) {
@@ -366,22 +374,15 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
   const double by = time - m_grabTime;
   switch (m_grab) {
     case Grab::Moment:
-      m_timeline->seek(time);
+      m_shown->seek(time);
       break;
     case Grab::Range:
-      m_timeline->setSelection({{std::min(m_grabTime, time), std::max(m_grabTime, time)}});
+      m_shown->setSelection({{std::min(m_grabTime, time), std::max(m_grabTime, time)}});
       break;
     case Grab::Window:
-      m_plots->setRange({m_grabRange.begin + by, m_grabRange.end + by});
-      break;
     case Grab::WindowBegin:
-      m_plots->setRange(
-          {std::min(m_grabRange.begin + by, m_grabRange.end - LinkedTime::minimumSpan),
-           m_grabRange.end});
-      break;
     case Grab::WindowEnd:
-      m_plots->setRange({m_grabRange.begin, std::max(m_grabRange.end + by,
-                                                     m_grabRange.begin + LinkedTime::minimumSpan)});
+      moveWindow(by);
       break;
     case Grab::View: {
       const double pixels = at.x() - m_pressedAt.x();
@@ -397,15 +398,26 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
   }
 }
 
+// An end that is dragged over the other one does not leave a range in which nothing can be seen.
+void TimelineStrip::moveWindow(double by) {
+  telemetry::TimeRange to = m_grabRange;
+  const double span = to.end - to.begin;
+  const double least = std::min(
+      span,
+      std::max(LinkedTime::minimumSpan, scaled(this, narrowestWindow) * m_axis.secondsPerPixel()));
+  if (m_grab != Grab::WindowEnd) to.begin += by;
+  if (m_grab != Grab::WindowBegin) to.end += by;
+  if (m_grab == Grab::WindowBegin) to.begin = std::min(to.begin, to.end - least);
+  if (m_grab == Grab::WindowEnd) to.end = std::max(to.end, to.begin + least);
+  m_plots->setRange(to);
+}
+
 void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
   const Grab grabbed = m_grab;
   m_grab = Grab::Nothing;
   if (!m_dragged && event->button() == Qt::LeftButton) {
-    if (grabbed == Grab::Window || grabbed == Grab::WindowBegin || grabbed == Grab::WindowEnd) {
-      m_timeline->seek(m_grabTime);
-    }
-    if (grabbed == Grab::Range) m_timeline->setSelection({});
-    if (grabbed == Grab::Compared) m_timeline->seek(m_grabTime);
+    if (grabbed == Grab::Range) m_shown->setSelection({});
+    if (grabbed == Grab::Compared) m_shown->seek(m_grabTime);
   }
   showCursorAt(event->position(), event->modifiers());
 }
@@ -413,10 +425,12 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
 void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
   if (event->button() != Qt::LeftButton) return;
   if (const EventMark* mark = markAt(event->position())) {
-    if (m_timeline->events()->at(mark->row).kind == link::MatchEventKind::Bookmark)
+    if (m_shown->events()->at(mark->row).kind == link::MatchEventKind::Bookmark)
       editNote(mark->row);
     return;
   }
+  const auto handle = rangeHandle();
+  if (handle && handle->contains(event->position())) return;
   if (event->position().y() > bandRect().bottom()) showAll();
 }
 
@@ -438,7 +452,7 @@ void TimelineStrip::wheelEvent(QWheelEvent* event) {
 void TimelineStrip::contextMenuEvent(QContextMenuEvent* event) {
   const QPointF at = event->pos();
   if (const EventMark* mark = markAt(at)) {
-    emit menuRequested(event->globalPos(), &m_timeline->events()->at(mark->row), false);
+    emit menuRequested(event->globalPos(), &m_shown->events()->at(mark->row), false);
     return;
   }
   if (comparedRect().contains(event->pos())) {

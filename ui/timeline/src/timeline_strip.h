@@ -2,8 +2,9 @@
 #pragma once
 
 // The timeline itself: axis, what memory holds, the window of the plots, marks of events, the
-// moment shown. Click or drag to look back; drag the plots' window in the band; Shift-drag chooses
-// a range; wheel zooms, middle-drag or a wheel with Shift moves. UI thread only.
+// moment shown. Click or drag to look back, also in the band; the plots' window has a handle below
+// the band; Shift-drag chooses a range; wheel zooms, middle-drag or a wheel with Shift moves. UI
+// thread only.
 
 #include <QWidget>
 #include <functional>
@@ -22,13 +23,13 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 class EventList;
 class LinkedTime;
-class Timeline;
+class ShownMoment;
 
 class TimelineStrip : public QWidget {
   Q_OBJECT
  public:
   /// `plots` may be null: then there is no window of theirs.
-  TimelineStrip(Timeline* timeline, LinkedTime* plots, QWidget* parent = nullptr);
+  TimelineStrip(ShownMoment* shown, LinkedTime* plots, QWidget* parent = nullptr);
   ~TimelineStrip() override;
 
   /// A second session's events in a row of their own, under this caption; its second 0 stands at
@@ -48,14 +49,16 @@ class TimelineStrip : public QWidget {
   /// Opens the note of a bookmark for writing, in its place.
   void editNote(int row);
 
-  // Where things are, for tests and for the menu.
+  // Geometry of the parts, for the menu and for tests.
   const TimeAxis& axis() const { return m_axis; }
   const std::vector<EventMark>& marks();
   std::vector<EventMark> comparedMarks() const;
   QRect bandRect() const;
   QRect comparedRect() const;  ///< empty while nothing is compared
   QRect branchRect() const;    ///< of the abandoned future; empty while there is none
-  std::optional<QRectF> windowRect() const;
+  /// What moves the plots' window, and changes it at its ends: below the band, never narrower than
+  /// a hand needs.
+  std::optional<QRectF> rangeHandle() const;
 
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override;
@@ -82,9 +85,13 @@ class TimelineStrip : public QWidget {
   enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
   void addZoom(const char* id, const char* text, const std::function<void()>& change);
   MarkSizes markSizes() const;
+  std::optional<QRectF> windowRect() const;  // of the plots, in the band
   void fitAxis();
   void updateCalmly();
   void clampShown(telemetry::TimeRange& range) const;
+  static constexpr int axisHeight = 14, railHeight = 6,
+                       bandHeight = 10;  // px of the mock, from below
+  void moveWindow(double by);
   Grab grabAt(QPointF at, Qt::KeyboardModifiers keys) const;
   const EventMark* markAt(QPointF at);
   const EventMark* nearest(const std::vector<EventMark>& marks, double x) const;
@@ -101,7 +108,7 @@ class TimelineStrip : public QWidget {
   void paintAxis(QPainter& painter) const;
   void paintMoment(QPainter& painter) const;
 
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   LinkedTime* m_plots;
   AbandonedFuture* m_future = nullptr;
   const EventList* m_compared = nullptr;

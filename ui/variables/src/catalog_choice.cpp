@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "catalog_choice.h"
 
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QSettings>
 
+#include <ui/base/file_dialog.h>
 #include <ui/base/in_place_message.h>
 #include <ui/sources/match_controller.h>
 
@@ -49,9 +49,8 @@ QString CatalogChoice::name() const {
 }
 
 void CatalogChoice::askAndImport(QWidget* parent) {
-  const QString file = QFileDialog::getOpenFileName(
-      parent, QStringLiteral("Import variable catalog"), m_file,
-      QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
+  const QString file = askToOpen(parent, QStringLiteral("Import variable catalog"),
+                                 QStringLiteral("Catalogs (*.h *.hpp *.py *.json);;All files (*)"));
   if (!file.isEmpty()) importFile(file);
 }
 

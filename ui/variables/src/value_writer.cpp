@@ -26,10 +26,8 @@ void ValueWriter::forget() {
 void ValueWriter::write(const QModelIndex& index, double value) {
   const auto group = m_model->groupOf(index);
   const telemetry::ColumnInfo* column = m_model->columnOf(index);
-  const auto& attributes = group->info().attributes;
-  const auto robot = attributes.find("robot");
-  if (column == nullptr || robot == attributes.end()) return;
-  const RobotId id{QString::fromStdString(robot->second).toInt()};
+  const RobotId id{factsOf(group->info()).slot};
+  if (column == nullptr || id.value == 0) return;
   const auto series = m_model->store()->find(group->info().name, column->name);
   const auto view = series ? m_model->store()->view(series->group) : nullptr;
   const auto before = view ? view->latest(series->column) : std::nullopt;

@@ -7,6 +7,7 @@
 #include <QString>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "variables_model.h"
@@ -25,7 +26,8 @@ struct VariableNode {
   telemetry::GroupId group = 0;
   int rank = 0;  ///< robots, then other groups, then the match
   std::shared_ptr<const telemetry::GroupView> view;
-  std::uint64_t round = 0;  ///< in which `view` was taken
+  std::vector<std::string> columns;  ///< names of the columns that are listed
+  std::uint64_t round = 0;           ///< in which `view` was taken
   double rowsPerSecond = 0.0;
   double newest = -std::numeric_limits<double>::infinity();
 

@@ -16,7 +16,8 @@ using telemetry::ColumnKind;
 using telemetry::ColumnType;
 
 int decimalsOf(const ColumnInfo& column) {
-  if (column.type == ColumnType::Int32 || column.kind != ColumnKind::Number) return 0;
+  if (column.type == ColumnType::Int32 || column.isWhole || column.kind != ColumnKind::Number)
+    return 0;
   struct UnitDecimals {
     const char* unit;
     int decimals;
@@ -30,9 +31,11 @@ int decimalsOf(const ColumnInfo& column) {
   return 2;
 }
 
-QString numberOf(double value, int decimals) {
+/// With fixed decimals. A number without a unit may be of any size, so that a small one is written
+/// as such; 2.2e-06 cm is 0.
+QString numberOf(double value, int decimals, bool hasUnit) {
   constexpr double largest = 1e7;
-  const double smallest = 0.5 * std::pow(10.0, -decimals);
+  const double smallest = hasUnit ? 0.0 : 0.5 * std::pow(10.0, -decimals);
   const double size = std::abs(value);
   if (decimals > 0 && size != 0.0 && (size >= largest || size < smallest)) {
     QString text = QString::number(value, 'g', 3);
@@ -54,7 +57,7 @@ auto refuse(const QString& sentence) {
 QString valueText(const ColumnInfo& column, double value) {
   if (std::isnan(value)) return QStringLiteral("–");
   if (std::isinf(value)) return value > 0 ? QStringLiteral("∞") : QStringLiteral("−∞");
-  return numberOf(value, decimalsOf(column));
+  return numberOf(value, decimalsOf(column), !column.unit.empty());
 }
 
 QString exactText(const ColumnInfo& column, double value) {
@@ -80,7 +83,7 @@ QString exactText(const ColumnInfo& column, double value) {
 
 QString rateText(const ColumnInfo& column, double perSecond) {
   if (!std::isfinite(perSecond)) return {};
-  const QString text = numberOf(perSecond, std::max(1, decimalsOf(column)));
+  const QString text = numberOf(perSecond, std::max(1, decimalsOf(column)), !column.unit.empty());
   return perSecond > 0 && text.toDouble() != 0.0 ? QLatin1Char('+') + text : text;
 }
 
@@ -91,9 +94,9 @@ QString ageText(double seconds) {
 }
 
 QString attachedKey(const telemetry::GroupInfo& group) {
-  const auto key = group.attributes.find("key");
-  const bool attached = group.attributes.contains("attached") && key != group.attributes.end();
-  return attached ? QStringLiteral("key ") + QString::fromStdString(key->second) : QString();
+  const telemetry::RobotFacts& facts = factsOf(group);
+  return facts.attached && facts.boardKey ? QStringLiteral("key %1").arg(*facts.boardKey)
+                                          : QString();
 }
 
 QString labelOf(const ColumnInfo& column, double value) {
@@ -117,10 +120,10 @@ Result<double> parseValue(const ColumnInfo& column, const QString& text) {
     return refuse(QStringLiteral("%1 is a flag: 0 or 1, not “%2”.").arg(name(column), typed));
   }
   if (!isNumber) {
-    return refuse(QStringLiteral("“%1” is not a number%2.")
-                      .arg(typed, column.labels.empty()
-                                      ? QString()
-                                      : QStringLiteral(", nor the label of a code")));
+    return refuse((column.labels.empty()
+                       ? QStringLiteral("“%1” is not a number.")
+                       : QStringLiteral("“%1” is neither a number nor a label of %2."))
+                      .arg(typed, name(column)));
   }
   if (column.type == ColumnType::Int32) {
     if (value != std::floor(value)) {

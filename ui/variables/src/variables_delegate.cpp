@@ -70,8 +70,9 @@ QString VariablesDelegate::nameFor(const QModelIndex& index, const QFont& font, 
   QString name = index.data().toString();
   const QString heading = index.parent().data().toString().toUpper() + QLatin1Char('_');
   const bool isUnder = name.startsWith(heading) && name.size() > heading.size();
-  constexpr int roomy = 24;  // letters; all names of a heading are shortened, or none
-  const bool isNarrow = room < roomy * QFontMetrics(font).averageCharWidth();
+  // All names of a heading are shortened, or none: where the longest of the published map has room.
+  const bool isNarrow =
+      room < QFontMetricsF(font).horizontalAdvance(QStringLiteral("VISION_PURPLE_LANDMARK_DEG"));
   return isUnder && isNarrow ? name.mid(heading.size()) : name;
 }
 

@@ -24,8 +24,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "catalog_choice.h"
 #include "value_writer.h"
@@ -67,18 +66,18 @@ class VariablesDock : public QWidget {
     });
     connectView();
     adoptSettings();
-    connect(context.source, &FrameSource::restarted, this, [this] { adoptSource(); });
-    connect(context.source, &SourceSwitch::changed, this, [this] { adoptSource(); });
+    connect(context.shown, &FrameSource::restarted, this, [this] { adoptSource(); });
+    connect(context.shown, &ShownMoment::sourceChosen, this, [this] { adoptSource(); });
     connect(context.controller->edits(), &MatchEdits::lockedChanged, this,
             [this] { allowEditing(m_lock->isChecked()); });
     if (context.selection != nullptr) {
       connect(context.selection, &RobotSelection::blackboardRequested, this,
-              [this](const RobotKey& robot) { showBlackboard(robot); });
+              [this](RobotUid robot) { showBlackboard(robot); });
     }
     constexpr Beat::Milliseconds least{100}, most{500};
     m_refresh = Beat::display().add(
         this, least, [this] { poll(); }, most);
-    connect(context.source, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
+    connect(context.shown, &FrameSource::frameReceived, this, [this] { m_refresh->want(); });
     adoptSource();
   }
 
@@ -182,16 +181,14 @@ class VariablesDock : public QWidget {
   }
 
   std::vector<link::AttachedStatus> boards() const {
-    if (m_context.boards == nullptr || m_context.source->kind() == SourceKind::Replay) return {};
+    if (m_context.boards == nullptr || !m_context.shown->kind().hasPresent) return {};
     return m_context.boards->list().empty() ? std::vector<link::AttachedStatus>()
                                             : m_context.boards->status();
   }
 
   /// The System V key of an attached blackboard's group; 0: it is another group.
   static int keyOf(const telemetry::GroupInfo& group) {
-    const auto& attributes = group.attributes;
-    if (!attributes.contains("attached") || !attributes.contains("key")) return 0;
-    return QString::fromStdString(attributes.at("key")).toInt();
+    return factsOf(group).attached ? factsOf(group).boardKey.value_or(0) : 0;
   }
 
   /// Notes beside the groups of attached blackboards, and a message when one was removed.
@@ -254,9 +251,9 @@ class VariablesDock : public QWidget {
 
   void adoptSource() {
     m_writer->forget();
-    m_store = m_context.source->series();
-    m_model->setStore(m_store, m_context.source->kind());
-    const bool simulated = m_context.source->kind() == SourceKind::Simulate;
+    m_store = m_context.shown->series();
+    m_model->setStore(m_store, m_context.shown->kind());
+    const bool simulated = m_context.shown->kind().canBeEdited;
     m_lock->setEnabled(simulated);
     if (!simulated) m_lock->setChecked(false);
     allowEditing(m_lock->isChecked());
@@ -267,10 +264,10 @@ class VariablesDock : public QWidget {
     const bool past = m_context.controller->edits()->isLocked();
     on = on && !past;
     m_model->setEditingAllowed(on);
-    m_lock->setEnabled(m_context.source->kind() == SourceKind::Simulate && !past);
+    m_lock->setEnabled(m_context.shown->kind().canBeEdited && !past);
     m_lock->setIcon(
         themedIcon(on ? QStringLiteral("object-unlocked") : QStringLiteral("object-locked")));
-    const QString why = VariablesModel::whyNotEditable(m_context.source->kind());
+    const QString why = QString::fromUtf8(m_context.shown->kind().whyNotEditable);
     m_lock->setToolTip(
         !why.isEmpty() ? why
         : past         ? QStringLiteral("You are viewing the past. Press Now to edit values.")
@@ -280,9 +277,9 @@ class VariablesDock : public QWidget {
   }
 
   /// The variables of one robot, in front of everything, and where others find them.
-  void showBlackboard(const RobotKey& key) {
-    const FramePtr frame = m_context.source->frame();
-    const link::RobotFrame* robot = frame ? frame->robot(key) : nullptr;
+  void showBlackboard(RobotUid uid) {
+    const FramePtr frame = m_context.shown->frame();
+    const link::RobotFrame* robot = frame ? frame->robot(uid) : nullptr;
     if (robot == nullptr) return;
     m_stars->setChecked(false);
     m_changed->setChecked(false);
@@ -323,15 +320,13 @@ class VariablesDock : public QWidget {
 
   void poll() {
     // The source's rows may begin without a restart.
-    if (m_context.source->series() != m_store) {
+    if (m_context.shown->series() != m_store) {
       adoptSource();
       return;
     }
     m_writer->check();
     if (!isVisible()) return;
-    const Timeline* timeline = m_context.timeline;
-    const bool past = timeline && (timeline->isLookingBack() || timeline->isRecording());
-    m_model->setMoment(past ? std::optional(timeline->shownTime()) : std::nullopt);
+    m_model->setMoment(m_context.shown->chosenTime());
     m_model->updateGroups();
     describeBoards();
     m_model->refreshSet(m_view->rowsInSight());
@@ -362,7 +357,7 @@ class VariablesDock : public QWidget {
 
   QString emptyText() const {
     if (m_model->rowCount() == 0) {
-      const QString why = m_context.source->frame() ? QString() : m_context.source->emptyText();
+      const QString why = m_context.shown->frame() ? QString() : m_context.shown->emptyText();
       return why.isEmpty()
                  ? QStringLiteral("No variables yet. They appear with the first values of a robot.")
                  : why;

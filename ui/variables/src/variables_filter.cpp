@@ -94,7 +94,7 @@ bool VariablesFilter::accepts(const QModelIndex& variable) const {
                      [&text](const QString& word) { return text.contains(word); });
 }
 
-// Whoever looks for a name finds it; the name of a robot alone looks for no variable.
+// The filter finds a name; the name of a robot alone finds no variable.
 bool VariablesFilter::foldsIn(const QModelIndex& category) const {
   if (!m_folding || m_favouritesOnly || m_changedWithin) return false;
   if (m_model->neverSetCount(category) == 0) return false;

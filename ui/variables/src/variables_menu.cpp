@@ -5,7 +5,7 @@
 
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/variables/variables_dock.h>
 
 #include "catalog_choice.h"
@@ -29,7 +29,6 @@ VariablesMenu::VariablesMenu(const VariablesContext& context, VariablesView* vie
         qBound(1, settings->value(samplingKey, 1).toInt(), 60));
     filter->setFolding(settings->value(foldKey, true).toBool());
   }
-  setToolTipsVisible(true);
   QMenu* columns = addMenu(QStringLiteral("Columns"));
   connect(columns, &QMenu::aboutToShow, this,
           [this, columns] { m_view->columns()->fillColumns(columns); });

@@ -32,7 +32,7 @@ int categoryRank(const std::string& category) {
 
 int groupRank(const GroupInfo& info) {
   if (info.name == "match") return 2;
-  return info.attributes.count("number") != 0 ? 0 : 1;
+  return factsOf(info).number != 0 ? 0 : 1;
 }
 
 bool isListedBefore(const VariableNode& group, const VariableNode& other) {
@@ -52,7 +52,7 @@ VariableNode* VariablesModel::node(const QModelIndex& index) {
 }
 
 void VariablesModel::setStore(std::shared_ptr<const telemetry::SeriesStore> store,
-                              SourceKind kind) {
+                              const SourceKind& kind) {
   beginResetModel();
   m_groups.clear();
   m_store = std::move(store);
@@ -70,6 +70,7 @@ std::unique_ptr<VariableNode> VariablesModel::makeGroup(
   group->group = id;
   group->view = std::move(view);
   const GroupInfo& info = group->view->info();
+  for (const telemetry::ColumnInfo& column : info.columns) group->columns.push_back(column.name);
   group->name = group->path = QString::fromStdString(info.name);
   group->rank = groupRank(info);
   const auto categoryOf = [&group](const std::string& text) {
@@ -132,12 +133,24 @@ void VariablesModel::updateGroups() {
   const std::uint64_t revision = m_store->groupsRevision();
   if (revision == m_revision && m_revision != 0) return;
   m_revision = revision;
-  // A group whose columns changed goes on under a new id; the old one is history.
+  findFavourites();
+  // A group whose columns changed is listed anew.
   for (std::size_t i = m_groups.size(); i-- > 0;) {
     const VariableNode& known = *m_groups[i];
     const auto view = m_store->view(known.group);
-    const bool isListed = m_store->findGroup(known.name.toStdString()) == known.group;
-    if (isListed && view && orderOf(view->info()) == orderOf(known.view->info())) continue;
+    const std::string name = known.name.toStdString();
+    const bool isListed =
+        view && view->info().name == name && m_store->findGroup(name) == known.group;
+    const auto hasItsColumns = [&] {
+      return std::ranges::equal(view->info().columns, known.columns, {},
+                                &telemetry::ColumnInfo::name);
+    };
+    const auto hasItsOrder = [&] {
+      return factsOf(view->info()).order == factsOf(known.view->info()).order;
+    };
+    if (isListed && hasItsOrder() && hasItsColumns()) {
+      continue;
+    }
     beginRemoveRows({}, static_cast<int>(i), static_cast<int>(i));
     m_groups.erase(m_groups.begin() + static_cast<std::ptrdiff_t>(i));
     renumber();
@@ -149,7 +162,6 @@ void VariablesModel::updateGroups() {
                                    [id](const auto& group) { return group->group == id; });
     if (shown) continue;
     auto view = m_store->view(id);
-    // One that was replaced stays in the store, without rows.
     if (!view || m_store->findGroup(view->info().name) != id) continue;
     auto group = makeGroup(id, std::move(view));
     lookForSet(*group);
@@ -164,16 +176,24 @@ void VariablesModel::updateGroups() {
   }
 }
 
+/// Rows of favourites are found when groups have come or changed their names.
+void VariablesModel::findFavourites() {
+  m_favouriteIds.clear();
+  for (const QString& name : m_favourites) {
+    const auto id = m_store ? findVariable(*m_store, name) : std::nullopt;
+    if (id) m_favouriteIds.emplace(*id, name);
+  }
+}
+
 void VariablesModel::setFavourites(const QStringList& names) {
   m_favourites = QSet<QString>(names.begin(), names.end());
+  findFavourites();
   if (!m_groups.empty()) emit dataChanged(index(0, Name), index(rowCount() - 1, Name));
   emit favouritesChanged();
 }
 
-bool VariablesModel::isFavourite(const QString& path) const {
-  return m_favourites.contains(path) ||
-         std::ranges::any_of(m_favourites,
-                             [&](const QString& saved) { return isVariable(saved, path); });
+bool VariablesModel::isFavourite(const VariableNode& variable) const {
+  return m_favouriteIds.contains({variable.owner()->group, variable.column});
 }
 
 QStringList VariablesModel::favourites() const {
@@ -189,17 +209,17 @@ void VariablesModel::toggleFavourites(const QModelIndexList& indexes) {
   }
   if (variables.isEmpty()) return;
   // Several at once end up equal: all starred, unless all were.
-  const bool all = std::all_of(variables.begin(), variables.end(), [this](const auto& index) {
-    return isFavourite(node(index)->path);
-  });
+  const bool all = std::all_of(variables.begin(), variables.end(),
+                               [this](const auto& index) { return isFavourite(*node(index)); });
   for (const QModelIndex& index : variables) {
-    if (all)
-      m_favourites.removeIf(
-          [&](const QString& saved) { return isVariable(saved, node(index)->path); });
-    else
-      m_favourites.insert(node(index)->path);
+    const VariableNode& variable = *node(index);
+    const auto [begin, end] =
+        m_favouriteIds.equal_range({variable.owner()->group, variable.column});
+    for (auto known = begin; all && known != end; ++known) m_favourites.remove(known->second);
+    if (!all) m_favourites.insert(variable.path);
     emit dataChanged(index, index);
   }
+  findFavourites();
   emit favouritesChanged();
 }
 

@@ -10,6 +10,7 @@
 #include <QList>
 #include <QSet>
 #include <QStringList>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -48,7 +49,7 @@ class VariablesModel : public QAbstractItemModel {
   ~VariablesModel() override;
 
   /// Everything again, even for the same store. A null store is an empty tree.
-  void setStore(std::shared_ptr<const telemetry::SeriesStore> store, SourceKind kind);
+  void setStore(std::shared_ptr<const telemetry::SeriesStore> store, const SourceKind& kind);
   const telemetry::SeriesStore* store() const { return m_store.get(); }
   /// Takes up groups that came since; cheap when none did.
   void updateGroups();
@@ -78,19 +79,17 @@ class VariablesModel : public QAbstractItemModel {
   void setNote(const QString& group, const GroupNote& note);
 
   /// Seconds that a sparkline covers.
-  double sparkSeconds() const { return m_kind == SourceKind::Live ? 60.0 : 15.0; }
+  double sparkSeconds() const { return m_kind.sparkline; }
   /// Newest time of the source at the last refresh.
   double now() const { return m_now; }
 
   void setFavourites(const QStringList& names);
   QStringList favourites() const;
-  bool isFavourite(const QString& path) const;
   void toggleFavourites(const QModelIndexList& indexes);
 
   /// Whether a person may edit at all; off at first.
   void setEditingAllowed(bool allowed) { m_editingAllowed = allowed; }
   /// Why no value of such a source can be edited; empty for simulated matches.
-  static QString whyNotEditable(SourceKind source);
   /// Why this row's value cannot be edited, whether or not editing is allowed; empty when it can.
   QString whyNotEditable(const QModelIndex& index) const;
 
@@ -131,6 +130,8 @@ class VariablesModel : public QAbstractItemModel {
 
  private:
   static VariableNode* node(const QModelIndex& index);
+  void findFavourites();
+  bool isFavourite(const VariableNode& variable) const;
   QModelIndex indexOf(const VariableNode* node, int column) const;
   std::unique_ptr<VariableNode> makeGroup(telemetry::GroupId id,
                                           std::shared_ptr<const telemetry::GroupView> view) const;
@@ -150,8 +151,9 @@ class VariablesModel : public QAbstractItemModel {
   std::uint64_t m_revision = 0;
   std::vector<std::unique_ptr<VariableNode>> m_groups;
   QSet<QString> m_favourites;
-  QHash<QString, GroupNote> m_notes;  // by group
-  std::optional<double> m_moment;     // looked back at
+  std::multimap<telemetry::SeriesId, QString> m_favouriteIds;  // those that are there
+  QHash<QString, GroupNote> m_notes;                           // by group
+  std::optional<double> m_moment;                              // looked back at
   double m_now = 0.0;
   std::uint64_t m_round = 0;
   std::uint64_t m_setRevision = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // VariablesModel: how rows are shown, and what a person may do with them.
+#include <telemetry/series/group_attributes.h>
 #include <QColor>
 
 #include <robotlink/blackboard/variable_catalog.h>
@@ -69,27 +70,15 @@ QVariant VariablesModel::sortValue(const VariableNode& row, int column) const {
   }
 }
 
-QString VariablesModel::whyNotEditable(SourceKind source) {
-  switch (source) {
-    case SourceKind::Live:
-      return QStringLiteral("Live values are read-only: nothing is ever sent to robots.");
-    case SourceKind::Replay:
-      return QStringLiteral("Values of a recording are read-only.");
-    case SourceKind::Simulate:
-      break;
-  }
-  return {};
-}
-
 QString VariablesModel::whyNotEditable(const QModelIndex& index) const {
   const telemetry::ColumnInfo* column = columnOf(index);
   if (column == nullptr) return QStringLiteral("Only values of variables can be edited.");
-  if (QString why = whyNotEditable(m_kind); !why.isEmpty()) return why;
+  if (*m_kind.whyNotEditable != 0) return QString::fromUtf8(m_kind.whyNotEditable);
   if (m_moment) {
     return QStringLiteral("You can't edit the past. Press Now to return to the match.");
   }
   const telemetry::GroupInfo& group = groupOf(index)->info();
-  if (group.attributes.count("robot") == 0) {
+  if (factsOf(group).slot == 0) {
     return group.name == "match" ? QStringLiteral("Match data is measured and cannot be edited.")
                                  : QStringLiteral("Attached blackboards are read-only.");
   }
@@ -109,7 +98,7 @@ QString VariablesModel::toolTip(const QModelIndex& index) const {
   }
   if (row.kind == Kind::Group) {
     QStringList lines{row.name};
-    for (const auto& [key, value] : row.view->info().attributes) {
+    for (const auto& [key, value] : telemetry::attributesOf(row.view->info())) {
       if (key == "order") continue;  // how lists are sorted
       lines << QString::fromStdString(key) + QStringLiteral(": ") + QString::fromStdString(value);
     }
@@ -191,7 +180,7 @@ QVariant VariablesModel::data(const QModelIndex& index, int role) const {
     case ColumnRole:
       return QVariant::fromValue(row.info);
     case FavouriteRole:
-      return row.kind == Kind::Variable && isFavourite(row.path);
+      return row.kind == Kind::Variable && isFavourite(row);
     default:
       return {};
   }

@@ -12,7 +12,7 @@
 
 #include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -37,6 +37,7 @@ constexpr Offer offers[] = {
     {Kind::RefereeOffline, "The referee went offline"},
     {Kind::SecondSender, "Two programs send as one robot"},
     {Kind::PortLost, "A port cannot be opened"},
+    {Kind::PortsShared, "Another program receives on the robots' ports"},
     {Kind::Goal, "A goal"},
 };
 
@@ -100,7 +101,7 @@ class AlarmFrame : public QWidget {
   QTimer m_edge, m_plate;
 };
 
-Alarms::Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent)
+Alarms::Alarms(ShownMoment* sources, QWidget* field, QSettings* settings, QObject* parent)
     : QObject(parent),
       m_frame(new AlarmFrame(field)),
       m_settings(settings),

@@ -20,13 +20,13 @@ class QWidget;
 namespace pitchboard::ui {
 
 class AlarmFrame;
-class SourceSwitch;
+class ShownMoment;
 
 class Alarms : public QObject {
   Q_OBJECT
  public:
   /// Listens to every source that the switch has by now. `field`: gets the frame.
-  Alarms(SourceSwitch* sources, QWidget* field, QSettings* settings, QObject* parent);
+  Alarms(ShownMoment* sources, QWidget* field, QSettings* settings, QObject* parent);
   /// A tick for each kind of event that can be an alarm, and one for the sound.
   void fill(QMenu* menu);
   /// The red edge is seen; what it is about is said a little longer.

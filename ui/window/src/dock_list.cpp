@@ -31,43 +31,42 @@ PlotLayout firstPlots() {
 
 // Each dock gets what it uses and no more.
 QWidget* robots(const StudioParts& s, QWidget* parent) {
-  return makeRobotsDock({s.controller, s.source, s.selection, s.overlay, s.settings, s.live},
+  return makeRobotsDock({s.controller, s.shown, s.selection, s.overlay, s.settings, s.live},
                         parent);
 }
 QWidget* variables(const StudioParts& s, QWidget* parent) {
   return makeVariablesDock(
-      {s.controller, s.source, s.timeline, s.plots, s.settings, s.selection, s.boards,
+      {s.controller, s.shown, s.plots, s.settings, s.selection, s.boards,
        [boards = s.boards, parent] { showAttachDialog(boards, parent->window()); }},
       parent);
 }
 QWidget* noise(const StudioParts& s, QWidget* parent) {
-  return makeNoiseDock(s.controller, s.selection, s.source, parent);
+  return makeNoiseDock(s.controller, s.selection, s.shown, parent);
 }
 QWidget* referee(const StudioParts& s, QWidget* parent) {
-  return makeRefereePanel({s.controller, s.source, s.timeline, s.selection}, parent);
+  return makeRefereePanel({s.controller, s.shown, s.selection}, parent);
 }
 QWidget* plots(const StudioParts& s, QWidget* parent) {
-  return makePlotsDock(
-      {s.source, s.time, s.timeline, s.plots, s.settings, s.compared, s.future, firstPlots()},
-      parent);
+  return makePlotsDock({s.shown, s.time, s.plots, s.settings, s.compared, s.future, firstPlots()},
+                       parent);
 }
 QWidget* processes(const StudioParts& s, QWidget* parent) {
-  return makeProcessesDock(s.controller, s.source, parent);
+  return makeProcessesDock(s.controller, s.shown, parent);
 }
 QWidget* badMessages(const StudioParts& s, QWidget* parent) {
   return makeBadMessagesDock(s.live, parent);
 }
 QWidget* experiments(const StudioParts& s, QWidget* parent) {
-  return makeExperimentsDock({s.replay, s.compared, s.tests}, parent);
+  return makeExperimentsDock({s.replay, s.compared, s.tests, s.work}, parent);
 }
 QWidget* explore(const StudioParts& s, QWidget* parent) {
-  return makeExploreDock({s.explorer, s.source, s.selection, s.timeline}, parent);
+  return makeExploreDock({s.explorer, s.shown}, parent);
 }
 QWidget* log(const StudioParts& s, QWidget* parent) {
-  return makeLogDock(s.controller, s.source, s.timeline, parent);
+  return makeLogDock(s.controller, s.shown, parent);
 }
 QWidget* timeline(const StudioParts& s, QWidget* parent) {
-  return makeTimelineDock({s.time, s.timeline, s.timelineActions, s.compared, s.future}, parent);
+  return makeTimelineDock({s.time, s.shown, s.timelineActions, s.compared, s.future}, parent);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <QPainter>
 #include <QToolButton>
 
+#include <ui/base/floating_place.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -34,8 +35,10 @@ DockTitle::DockTitle(QDockWidget* dock) : QWidget(dock) {
   QToolButton* floating =
       button(this, QStringLiteral("window-restore"), QStringLiteral("Float or dock"));
   QToolButton* close = button(this, QStringLiteral("window-close"), QStringLiteral("Close"));
-  connect(floating, &QToolButton::clicked, dock,
-          [dock] { dock->setFloating(!dock->isFloating()); });
+  connect(floating, &QToolButton::clicked, dock, [dock] {
+    dock->setFloating(!dock->isFloating());
+    if (dock->isFloating()) moveBesideTools(dock);
+  });
   connect(close, &QToolButton::clicked, dock, &QDockWidget::close);
   dock->installEventFilter(this);
   m_row = new QHBoxLayout(this);
@@ -60,7 +63,7 @@ bool DockTitle::eventFilter(QObject* watched, QEvent* event) {
   auto* dock = qobject_cast<QDockWidget*>(watched);
   if (dock != nullptr && event->type() == QEvent::Paint && dock->isFloating()) {
     QPainter painter(dock);
-    painter.setPen(theme().outerEdge);
+    painter.setPen(theme().innerLine);
     painter.drawRect(dock->rect().adjusted(0, 0, -1, -1));
   }
   return QWidget::eventFilter(watched, event);

@@ -11,16 +11,16 @@
 #include <utility>
 
 #include <ui/base/theme.h>
-#include <ui/sources/source_switch.h>
+#include <ui/sources/shown_moment.h>
 
 #include "scoreboard.h"
 
 namespace pitchboard::ui {
 
-FieldOnly::FieldOnly(QMainWindow* window, SourceSwitch* source)
+FieldOnly::FieldOnly(QMainWindow* window, ShownMoment* shown)
     : QObject(window),
       m_window(window),
-      m_source(source),
+      m_shown(shown),
       m_action(new QAction(QStringLiteral("Field &only"), this)) {
   m_action->setObjectName(QStringLiteral("fieldOnly"));
   m_action->setCheckable(true);
@@ -29,7 +29,7 @@ FieldOnly::FieldOnly(QMainWindow* window, SourceSwitch* source)
   m_place = Beat::display().add(window, least, [this] {
     if (m_on) place();
   });
-  connect(source, &SourceSwitch::frameReceived, this, [this] { m_place->want(); });
+  connect(shown, &ShownMoment::frameReceived, this, [this] { m_place->want(); });
 }
 
 void FieldOnly::set(bool on) {
@@ -66,7 +66,7 @@ void FieldOnly::set(bool on) {
 }
 
 void FieldOnly::place() {
-  if (const FramePtr frame = m_source->frame()) m_scoreboard->setState(scoreboardOf(*frame));
+  if (const FramePtr frame = m_shown->frame()) m_scoreboard->setState(scoreboardOf(*frame));
   const QSize size = m_scoreboard->sizeHint() + QSize(scaled(m_window, 16), scaled(m_window, 8));
   const QWidget* host = m_window->centralWidget();
   m_scoreboard->setGeometry(QRect(QPoint((host->width() - size.width()) / 2, 0), size));

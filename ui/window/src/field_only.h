@@ -15,12 +15,12 @@ class QMainWindow;
 namespace pitchboard::ui {
 
 class Scoreboard;
-class SourceSwitch;
+class ShownMoment;
 
 class FieldOnly : public QObject {
   Q_OBJECT
  public:
-  FieldOnly(QMainWindow* window, SourceSwitch* source);
+  FieldOnly(QMainWindow* window, ShownMoment* shown);
   /// Checkable.
   QAction* action() const { return m_action; }
   bool isOn() const { return m_on; }
@@ -33,7 +33,7 @@ class FieldOnly : public QObject {
   void place();
 
   QMainWindow* m_window;
-  SourceSwitch* m_source;
+  ShownMoment* m_shown;
   QAction* m_action;
   std::unique_ptr<Beat::Part> m_place;
   Scoreboard* m_scoreboard = nullptr;

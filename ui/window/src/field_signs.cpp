@@ -16,8 +16,7 @@
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -131,13 +130,13 @@ QWidget* makeOpeningSign(MatchController* controller, QWidget* canvas) {
   return sign;
 }
 
-void makeFirstSteps(SourceSwitch* source, MatchController* controller, Timeline* timeline,
-                    const QList<QAction*>& actions, QSettings* settings, QWidget* canvas) {
+void makeFirstSteps(ShownMoment* shown, MatchController* controller, const QList<QAction*>& actions,
+                    QSettings* settings, QWidget* canvas) {
   static const QString wantedKey = QStringLiteral("window/firstSteps");
   if (!settings->value(wantedKey, true).toBool()) return;
   auto* sign = new FieldSign(canvas, QStringLiteral("firstSteps"), &ThemeColors::accentLine);
-  sign->textNow = [source] {
-    const bool plays = source->kind() == SourceKind::Simulate && source->frame();
+  sign->textNow = [shown] {
+    const bool plays = shown->kind().canBeEdited && shown->frame();
     return plays ? QStringLiteral("Drag the ball  ·  Space pauses  ·  F1 shows all keys")
                  : QString();
   };
@@ -145,8 +144,8 @@ void makeFirstSteps(SourceSwitch* source, MatchController* controller, Timeline*
   const auto present = [sign] {
     if (sign->isVisible() == sign->textNow().isEmpty()) sign->present();
   };
-  QObject::connect(source, &FrameSource::frameReceived, sign, present);
-  QObject::connect(source, &FrameSource::restarted, sign, present);
+  QObject::connect(shown, &FrameSource::frameReceived, sign, present);
+  QObject::connect(shown, &FrameSource::restarted, sign, present);
   const auto leave = [sign, settings] {
     settings->setValue(wantedKey, false);
     sign->hide();
@@ -154,20 +153,19 @@ void makeFirstSteps(SourceSwitch* source, MatchController* controller, Timeline*
   };
   for (QAction* action : actions) QObject::connect(action, &QAction::triggered, sign, leave);
   QObject::connect(controller->edits()->undoStack(), &QUndoStack::indexChanged, sign, leave);
-  QObject::connect(timeline, &Timeline::lookingBackChanged, sign, leave);
+  QObject::connect(shown, &ShownMoment::lookingBackChanged, sign, leave);
 }
 
-QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas) {
+QWidget* makeFinalWhistleSign(ShownMoment* shown, QWidget* canvas) {
   auto* sign = new FieldSign(canvas, QStringLiteral("finalWhistle"), &ThemeColors::innerLine);
-  sign->textNow = [source] {
-    const FramePtr frame = source->frame();
-    const bool over = source->kind() == SourceKind::Simulate && frame && frame->finished &&
+  sign->textNow = [shown] {
+    const FramePtr frame = shown->frame();
+    const bool over = shown->kind().canBeEdited && frame && frame->finished &&
                       frame->origin == link::FrameOrigin::Simulated;
     if (!over) return QString();
     const ScoreboardState board = scoreboardOf(*frame);
     return QStringLiteral("%1: %2 %3 : %4 %5. Space plays again, or look back on the timeline.")
-        .arg(frame->refereedGame ? QStringLiteral("Final whistle")
-                                 : QStringLiteral("The match is over"),
+        .arg(frame->game ? QStringLiteral("Final whistle") : QStringLiteral("The match is over"),
              board.leftName)
         .arg(board.left)
         .arg(board.right)
@@ -177,9 +175,9 @@ QWidget* makeFinalWhistleSign(SourceSwitch* source, QWidget* canvas) {
   const auto present = [sign] {
     if (sign->isVisible() == sign->textNow().isEmpty()) sign->present();
   };
-  QObject::connect(source, &FrameSource::frameReceived, sign, present);
-  QObject::connect(source, &FrameSource::restarted, sign, present);
-  QObject::connect(source, &SourceSwitch::changed, sign, present);
+  QObject::connect(shown, &FrameSource::frameReceived, sign, present);
+  QObject::connect(shown, &FrameSource::restarted, sign, present);
+  QObject::connect(shown, &ShownMoment::sourceChosen, sign, present);
   return sign;
 }
 
@@ -250,19 +248,18 @@ QWidget* makePublishedKeysSign(QAction* publishedKeys, QWidget* canvas) {
   return sign;
 }
 
-QWidget* makeLookingBackSign(Timeline* timeline, QWidget* canvas) {
+QWidget* makeLookingBackSign(ShownMoment* shown, QWidget* canvas) {
   auto* sign = new FieldSign(canvas, QStringLiteral("lookingBack"), &ThemeColors::accentLine);
-  sign->textNow = [timeline] {
+  sign->textNow = [shown] {
     // As the line of this moment says it in the plots.
-    return timeline->isLookingBack()
-               ? QStringLiteral("Viewing %1 · press Now to return")
-                     .arg(momentText(timeline->shownTime(), 2, timeline->clock()))
-               : QString();
+    return shown->isLookingBack() ? QStringLiteral("Viewing %1 · press Now to return")
+                                        .arg(momentText(shown->time(), 2, shown->clock()))
+                                  : QString();
   };
   sign->place = [sign, canvas](QSize text) { return topOfField(*sign, *canvas, text); };
-  QObject::connect(timeline, &Timeline::lookingBackChanged, sign, &FieldSign::present);
-  QObject::connect(timeline, &Timeline::moved, sign, &FieldSign::present);
-  QObject::connect(timeline, &Timeline::sourceChanged, sign, &FieldSign::present);
+  QObject::connect(shown, &ShownMoment::lookingBackChanged, sign, &FieldSign::present);
+  QObject::connect(shown, &ShownMoment::moved, sign, &FieldSign::present);
+  QObject::connect(shown, &ShownMoment::sourceChanged, sign, &FieldSign::present);
   return sign;
 }
 

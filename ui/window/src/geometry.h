@@ -5,6 +5,7 @@
 // what they need. Pure; any thread.
 
 #include <QSize>
+#include <algorithm>
 
 namespace pitchboard::ui {
 
@@ -15,15 +16,19 @@ struct Extents {
 };
 
 /// The smallest window, in pixels of the mock. Panels are cut before it grows.
-constexpr QSize leastWindow{640, 400};
+constexpr QSize minWindow{640, 400};
 
 constexpr Extents extentsFor(QSize window) {
   const int wide = window.width(), high = window.height();
   Extents extents{};
   extents.left = wide < 1100 ? 208 : wide < 1400 ? 232 : 256;
-  extents.right = wide < 1100 ? 280 : wide < 1400 ? 336 : 416;
-  // Below 900 a single row of curves; it grows by a drag.
-  extents.bottom = high < 560 ? 100 : high < 900 ? 130 : 200;
+  extents.right = wide < 1100 ? 280 : wide < 1400 ? 356 : 416;
+  // From a laptop's screen on: a plot whose curve has 110 px, and a lane. Below, a single row of
+  // curves; it grows by a drag.
+  constexpr int laptop = 740, withLane = 219;
+  extents.bottom = high < 560      ? 100
+                   : high < laptop ? 130
+                                   : withLane + std::max(0, high - 900) * 22 / 100;
   return extents;
 }
 

@@ -27,7 +27,7 @@ struct Columns {
   int count = 1, rows = 0;
 };
 
-Columns inColumns(const std::vector<KeyLine>& lines, int mostRows) {
+Columns inColumns(const std::vector<KeyLine>& lines, int maxRows) {
   Columns made;
   int row = 0;
   QString group;
@@ -40,7 +40,7 @@ Columns inColumns(const std::vector<KeyLine>& lines, int mostRows) {
       const auto size = static_cast<int>(std::ranges::count(lines, line.group, &KeyLine::group));
       if (size <= isShort) needed += size - 1;
     }
-    if (row > 0 && row + needed > mostRows) {
+    if (row > 0 && row + needed > maxRows) {
       ++made.count;
       row = 0;
     }

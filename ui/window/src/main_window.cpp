@@ -5,9 +5,10 @@
 #include <QApplication>
 #include <QDialog>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMenuBar>
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSettings>
 #include <QTimer>
 #include <QVBoxLayout>
@@ -18,6 +19,7 @@
 #include <utility>
 
 #include <telemetry/series/group_order.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/robot_text.h>
@@ -41,12 +43,10 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
-#include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
 #include <ui/window/scenario_files.h>
 
@@ -71,7 +71,7 @@ namespace {
 const QString exportTopic = QStringLiteral("export");
 const QString speedTopic = QStringLiteral("speed");
 const QString memoryKey = QStringLiteral("session/memoryMegabytes");
-constexpr int mostMemory = 65536;
+constexpr int maxMemory = 65536;
 const QString recentSessionsKey = QStringLiteral("sessions/recent");
 }  // namespace
 
@@ -80,27 +80,22 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
       m_controller(controller),
       m_live(new LiveController(this)),
       m_settings(settings),
-      m_source(new SourceSwitch(controller, this)),
+      m_shown(new ShownMoment(controller, this)),
       m_undo(new UndoHistory(this)),
       m_selection(new RobotSelection(this)),
-      m_time(new LinkedTime(this)),
+      m_time(new LinkedTime(m_shown, this)),
       m_plots(new PlotTarget(this)),
-      m_timeline(new Timeline(m_source, this)),
-      m_future(new AbandonedFuture(controller, m_source, m_timeline, this)),
+      m_future(new AbandonedFuture(controller, m_shown, this)),
       m_replay(new ReplayController(this)),
-      m_recording(new SessionRecording(controller, m_live, m_source, m_timeline, settings, this)),
-      m_timelineActions(new TimelineActions(m_timeline, m_time, m_future, this)),
-      m_boards(new AttachedBoards(controller, m_live, m_source, settings, this)) {
+      m_recording(new SessionRecording(controller, m_live, m_shown, settings, this)),
+      m_timelineActions(new TimelineActions(m_shown, m_time, m_future, this)),
+      m_boards(new AttachedBoards(controller, m_live, m_shown, settings, this)) {
   guardWheel(*qApp);
-  m_source->add(m_live);
-  m_source->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
-  m_source->add(m_replay);
-  m_timeline->watch(controller);
-  m_timeline->watch(m_live);
-  m_timeline->watch(m_replay);
-  m_undo->add(controller->edits()->undoStack(), [this] {
-    return m_source->kind() == SourceKind::Simulate && !m_timeline->isLookingBack();
-  });
+  m_shown->add(m_live);
+  m_shown->add(m_replay);
+  m_shown->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
+  m_undo->add(controller->edits()->undoStack(),
+              [this] { return m_shown->kind().canBeEdited && !m_shown->isLookingBack(); });
   setWindowTitle(QStringLiteral("Pitchboard"));
   // A title drags its own panel: of a group of tabs Qt neither asks where it may be dropped nor
   // says where it was.
@@ -113,25 +108,35 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
-  m_field = new FieldView(m_source, controller, centre);
-  m_overlay = new LiveOverlay(controller, m_live, m_source, this);
-  m_compared = new ComparedSession(m_timeline, this);
+  m_field = new FieldView(m_shown, controller, centre);
+  m_overlay = new LiveOverlay(controller, m_live, m_shown, this);
+  m_compared = new ComparedSession(m_shown, this);
   column->addWidget(m_field, 1);
   m_notices->floatOver(centre);
   setCentralWidget(centre);
-  m_fieldOnly = new FieldOnly(this, m_source);
-  m_alarms = new Alarms(m_source, centre, settings, this);
+  m_fieldOnly = new FieldOnly(this, m_shown);
+  m_alarms = new Alarms(m_shown, centre, settings, this);
 
-  m_sessions = new SessionFiles(m_replay, controller, m_source, m_timeline, m_notices, this);
-  m_bar = new TransportBar({controller, m_source, m_timeline, m_replay, m_recording, m_live},
-                           settings, this);
+  m_sessions = new SessionFiles(m_replay, controller, m_shown, m_notices, this);
+  m_bar = new TransportBar({controller, m_shown, m_replay, m_recording, m_live}, settings, this);
   addToolBar(m_bar);
-  m_status = new StudioStatusBar(
-      {controller, m_source, m_selection, m_timeline, m_replay, m_recording, m_live}, this);
+  m_status =
+      new StudioStatusBar({controller, m_shown, m_selection, m_replay, m_recording, m_live}, this);
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
-  m_tests = new SituationTests({m_source, controller, m_replay, settings}, this);
-  m_explorer = new Explorer({m_source, controller, m_replay}, this);
+  m_tests = new SituationTests({m_shown, controller, m_replay, settings}, this);
+  m_explorer = new Explorer({m_shown, controller, m_replay}, this);
+  m_work.add(m_recording, [this] {
+    return m_recording->isRecording()
+               ? QStringLiteral("A recording is running. Quitting ends it and keeps the file %1.")
+                     .arg(m_recording->path())
+               : QString();
+  });
+  m_work.add(m_sessions, [this] {
+    return m_sessions->isRepairing()
+               ? QStringLiteral("A session is being repaired. Quitting cancels it.")
+               : QString();
+  });
   makeDocks();
   m_plotsDock = findChild<PlotsDock*>();
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
@@ -145,30 +150,32 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connectField();
   if (auto* canvas = m_field->findChild<QAbstractScrollArea*>()) {
     makeOpeningSign(controller, canvas);
-    makeFinalWhistleSign(m_source, canvas);
-    makeLookingBackSign(m_timeline, canvas);
-    makeNobodyPlaysSign(m_source, canvas);
+    makeFinalWhistleSign(m_shown, canvas);
+    makeLookingBackSign(m_shown, canvas);
+    makeNobodyPlaysSign(m_shown, canvas);
     makePublishedKeysSign(m_field->actions().publishedKeys, canvas);
-    makePenaltyStrip(m_source, m_field, canvas);
-    makeFirstSteps(m_source, controller, m_timeline,
-                   {m_keys->action("play"), m_keys->action("showKeys")}, settings, canvas);
+    makePenaltyStrip(m_shown, m_field, canvas);
+    makeFirstSteps(m_shown, controller, {m_keys->action("play"), m_keys->action("showKeys")},
+                   settings, canvas);
   }
   connectNotices();
+  // What was compared belongs to the session before.
+  connect(m_sessions, &SessionFiles::replaced, m_compared, &ComparedSession::stop);
   connect(m_replay, &ReplayController::opened, this, [this] {
     QStringList recent = recentSessions();
     recent.removeAll(m_replay->path());
     recent.prepend(m_replay->path());
+    rememberFolderOf(m_replay->path());
     constexpr qsizetype most = 8;
     m_settings->setValue(recentSessionsKey, recent.mid(0, most));
   });
-  connect(m_source, &SourceSwitch::changed, this, [this] { m_selection->set({}); });
+  connect(m_shown, &ShownMoment::sourceChosen, this, [this] { m_selection->set({}); });
   const auto lock = [this] {
-    m_controller->edits()->setLocked(m_source->kind() == SourceKind::Simulate &&
-                                     m_timeline->isLookingBack());
+    m_controller->edits()->setLocked(m_shown->kind().canBeEdited && m_shown->isLookingBack());
     m_undo->refresh();
   };
-  connect(m_timeline, &Timeline::lookingBackChanged, this, lock);
-  connect(m_timeline, &Timeline::sourceChanged, this, lock);
+  connect(m_shown, &ShownMoment::lookingBackChanged, this, lock);
+  connect(m_shown, &ShownMoment::sourceChanged, this, lock);
   connect(m_bar, &TransportBar::sourceRequested, this, &MainWindow::showSource);
   connect(m_bar->scenarios(), &ScenarioChooser::chosen, m_files, &ScenarioFiles::open);
   connect(m_bar->scenarios(), &ScenarioChooser::openRequested, m_files, &ScenarioFiles::askAndOpen);
@@ -177,6 +184,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   if (!live.problem.isEmpty())
     m_notices->show({QStringLiteral("live")}, QStringLiteral("Live: %1").arg(live.problem));
   setMemoryBudget(memoryBudget());
+  keepDialogFolderIn(m_settings, m_recording->folder());
   restoreLayout();
   constexpr int saveMilliseconds = 3000;
   auto* saving = new QTimer(this);
@@ -213,16 +221,16 @@ void MainWindow::shutDown() {
   delete m_boards;
   delete m_timelineActions;
   delete m_future;
-  delete m_timeline;
-  delete m_source;
+  delete m_time;
+  delete m_shown;
   delete m_replay;
   delete m_live;
 }
 
-StudioParts MainWindow::parts() const {
-  return {m_controller, m_source,   m_selection,       m_field,  m_time,      m_settings,
-          m_plots,      m_timeline, m_timelineActions, m_replay, m_recording, m_live,
-          m_overlay,    m_compared, m_future,          m_tests,  m_boards,    m_explorer};
+StudioParts MainWindow::parts() {
+  return {m_controller, m_shown,           m_selection, m_field,     m_time,     m_settings,
+          m_plots,      m_timelineActions, m_replay,    m_recording, m_live,     m_overlay,
+          m_compared,   m_future,          m_tests,     m_boards,    m_explorer, &m_work};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -232,14 +240,15 @@ QStringList MainWindow::recentSessions() const {
 }
 
 void MainWindow::askAndOpen() {
-  const QString path = QFileDialog::getOpenFileName(
-      this, QStringLiteral("Open a scenario or a session"), {},
-      QStringLiteral("Scenarios and sessions (*.json *.mcap);;All files (*)"));
+  const QString path =
+      askToOpen(this, QStringLiteral("Open a scenario or a session"),
+                QStringLiteral("Scenarios, sessions and recordings (*.json *.mcap *.db3 *.csv "
+                               "*.tsv *.yaml *.yml);;All files (*)"));
   if (path.isEmpty()) return;
-  if (QFileInfo(path).suffix().toLower() == QStringLiteral("mcap"))
-    openSession(path);
-  else
+  if (QFileInfo(path).suffix().toLower() == QStringLiteral("json"))
     m_files->open(path);
+  else
+    openSession(path);
 }
 
 void MainWindow::showPalette() {
@@ -256,10 +265,10 @@ void MainWindow::showPalette() {
                       if (action) action->trigger();
                     }});
   }
-  if (const FramePtr frame = m_source->frame()) {
+  if (const FramePtr frame = m_shown->frame()) {
     for (const link::RobotFrame& robot : frame->robots) {
       entries.push_back({robotName(robot), QStringLiteral("robot"),
-                         [this, id = robot.key] { m_selection->set({id}); }});
+                         [this, id = robot.uid] { m_selection->set({id}); }});
     }
   }
   for (const QString& name : m_plotsDock->variables()) {
@@ -267,15 +276,15 @@ void MainWindow::showPalette() {
         {name, QStringLiteral("plot"), [this, name] { m_plotsDock->plotVariables({name}); }});
   }
   entries.insert(entries.end(), deep.begin(), deep.end());
-  const auto& events = m_timeline->events()->events();
-  constexpr int mostEvents = 500;
+  const auto& events = m_shown->events()->events();
+  constexpr int maxEvents = 500;
   int listed = 0;
-  for (auto event = events.rbegin(); event != events.rend() && listed < mostEvents; ++event) {
+  for (auto event = events.rbegin(); event != events.rend() && listed < maxEvents; ++event) {
     if (!link::isMarked(*event)) continue;
     ++listed;
     entries.push_back({QString::fromStdString(sentenceOf(*event)),
-                       momentText(event->time, 1, m_timeline->clock()),
-                       [this, time = event->time] { m_timeline->seek(time); }});
+                       momentText(event->time, 1, m_shown->clock()),
+                       [this, time = event->time] { m_shown->seek(time); }});
   }
   (new CommandPalette(std::move(entries), this))->show();
 }
@@ -301,38 +310,40 @@ void MainWindow::recordInto(const QString& path) {
 }
 
 void MainWindow::showExport() {
-  const auto all = m_timeline->available();
+  const auto all = m_shown->available();
   if (!all) {
     m_notices->show({exportTopic}, QStringLiteral("There is nothing to export yet."));
     return;
   }
   m_notices->settle(exportTopic);
   ExportSource source;
-  if (m_source->kind() == SourceKind::Replay) {
+  if (m_shown->source() == m_replay) {
     const QFileInfo file(m_replay->path());
     source.session = m_replay->path();
-    source.folder = file.path();
     source.name = file.completeBaseName() + QStringLiteral(" part");
     source.groups = m_replay->groups();
   } else {
     source.make = [this] {
       return m_recording->recentPast(std::numeric_limits<double>::infinity());
     };
-    source.folder = m_recording->folder();
-    source.name = m_source->kind() == SourceKind::Live
+    source.name = m_shown->source() == m_live
                       ? QStringLiteral("live")
                       : QString::fromStdString(m_controller->scenario().title);
-    if (const auto rows = m_source->series()) {
+    if (const auto rows = m_shown->series()) {
       for (telemetry::GroupId id = 0; id < rows->groups(); ++id) {
         if (const auto view = rows->view(id)) source.groups.push_back(view->info());
       }
     }
   }
   std::ranges::stable_sort(source.groups, telemetry::isListedBefore);
-  source.clock = m_source->clock();
+  source.clock = m_shown->clock();
   auto* dialog =
-      new ExportDialog(std::move(source), m_timeline->selection().value_or(*all), m_field, this);
+      new ExportDialog(std::move(source), m_shown->selection().value_or(*all), m_field, this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  m_work.add(dialog, [dialog] {
+    return dialog->isWriting() ? QStringLiteral("An export is running. Quitting cancels it.")
+                               : QString();
+  });
   dialog->show();
 }
 
@@ -340,11 +351,11 @@ int MainWindow::memoryBudget() const {
   constexpr int usual = 1024;
   bool good = false;
   const int kept = m_settings->value(memoryKey, usual).toInt(&good);
-  return good && kept >= 1 && kept <= mostMemory ? kept : usual;
+  return good && kept >= 1 && kept <= maxMemory ? kept : usual;
 }
 
 void MainWindow::setMemoryBudget(int megabytes) {
-  m_settings->setValue(memoryKey, std::clamp(megabytes, 1, mostMemory));
+  m_settings->setValue(memoryKey, std::clamp(megabytes, 1, maxMemory));
   const std::size_t bytes = static_cast<std::size_t>(memoryBudget()) << 20;
   m_controller->memory()->setMemoryBudget(bytes);
   m_live->setMemoryBudget(bytes);
@@ -352,11 +363,11 @@ void MainWindow::setMemoryBudget(int megabytes) {
   m_compared->setMemoryBudget(bytes);
 }
 
-void MainWindow::showSource(SourceKind kind) {
-  FrameSource* source = m_source->find(kind);
+void MainWindow::showSource(const SourceKind& kind) {
+  FrameSource* source = m_shown->find(kind);
   if (source == nullptr) return;
-  if (kind == SourceKind::Live) m_live->start();
-  m_source->choose(source);
+  if (source == m_live) m_live->start();
+  m_shown->choose(source);
 }
 
 void MainWindow::makeDocks() {
@@ -401,7 +412,7 @@ void MainWindow::connectField() {
           &RobotSelection::blackboardRequested);
   connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
   connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
-  connect(m_explorer, &Explorer::forecastChanged, m_field, &FieldView::showForecast);
+  connect(m_explorer, &Explorer::heatChanged, m_field, &FieldView::showHeat);
   connect(m_future, &AbandonedFuture::momentReached, m_field, [this](const FramePtr& frame) {
     if (!m_compared->isOn()) m_field->showCompared(frame);
   });
@@ -425,6 +436,44 @@ void MainWindow::connectField() {
     }
     m_controller->edits()->removeRobots(all);
   });
+}
+
+void MainWindow::askToClose(const QStringList& running) {
+  const QString name = QStringLiteral("askToClose");
+  for (const auto* asked : findChildren<QMessageBox*>(name)) {
+    if (asked->isVisible()) return;
+  }
+  auto* ask = new QMessageBox(QMessageBox::Question, QStringLiteral("Quit Pitchboard"),
+                              running.join(QStringLiteral("\n\n")), QMessageBox::NoButton, this);
+  ask->setObjectName(name);
+  ask->setAttribute(Qt::WA_DeleteOnClose);
+  QPushButton* quit = ask->addButton(QStringLiteral("Quit"), QMessageBox::DestructiveRole);
+  quit->setObjectName(QStringLiteral("quitNow"));
+  QPushButton* stay = ask->addButton(QStringLiteral("Don't quit"), QMessageBox::RejectRole);
+  stay->setObjectName(QStringLiteral("stay"));
+  ask->setDefaultButton(stay);
+  ask->setEscapeButton(stay);
+  connect(quit, &QPushButton::clicked, this, &MainWindow::closeNow, Qt::QueuedConnection);
+  ask->open();
+}
+
+void MainWindow::closeNow() {
+  m_closesNow = true;
+  close();
+}
+
+void MainWindow::offerLostRecordings() {
+  const QStringList lost = m_recording->drainLost();
+  if (lost.isEmpty()) return;
+  const QString file = lost.front();
+  m_notices->show(
+      {QStringLiteral("lost recording")},
+      QStringLiteral("Pitchboard ended while it was recording into %1. The part that was written "
+                     "can be opened.")
+          .arg(lost.join(QStringLiteral(" and "))),
+      {{QStringLiteral("Open in Replay"), [this, file] { m_sessions->open(file); }},
+       {QStringLiteral("Repair into a new file"), [this, file] { m_sessions->repair(file); }},
+       {QStringLiteral("Not now"), {}}});
 }
 
 void MainWindow::offerToRemoveOrphans() {
@@ -527,10 +576,13 @@ void MainWindow::connectNotices() {
   connect(m_live, &LiveController::optionsChanged, m_notices, [this] { m_notices->settle(live); });
   connect(m_live, &LiveController::eventsReceived, m_notices,
           [this](const std::vector<link::MatchEvent>& events) {
-            const auto ports = m_live->details().network.ports;
-            if (std::ranges::count(events, link::MatchEventKind::PortBack,
-                                   &link::MatchEvent::kind) > 0 &&
-                std::ranges::all_of(ports, &telemetry::PortStatus::bound)) {
+            const link::LiveDetails details = m_live->details();
+            const bool portsChanged = std::ranges::any_of(events, [](const auto& event) {
+              return event.kind == link::MatchEventKind::PortBack ||
+                     event.kind == link::MatchEventKind::PortsShared;
+            });
+            if (portsChanged && details.sharedPorts.empty() &&
+                std::ranges::all_of(details.network.ports, &telemetry::PortStatus::bound)) {
               m_notices->settle(live);
             }
           });

@@ -6,7 +6,7 @@
 
 #include <ui/field/field_view.h>
 #include <ui/sources/robot_selection.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "field_only.h"
 #include "help_overlay.h"
@@ -51,10 +51,10 @@ void MainWindow::makeKeys() {
 // Escape: the first of these that there is.
 void MainWindow::cancelStepByStep() {
   if (m_field->cancel()) return;
-  if (m_timeline->selection())
-    m_timeline->setSelection({});
-  else if (m_timeline->isLookingBack())
-    m_timeline->goLive();
+  if (m_shown->selection())
+    m_shown->setSelection({});
+  else if (m_shown->isLookingBack())
+    m_shown->goLive();
   else if (m_fieldOnly->isOn())
     m_fieldOnly->set(false);
   else

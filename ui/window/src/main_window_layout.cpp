@@ -71,7 +71,7 @@ void MainWindow::distributeSpaceLater() {
 void MainWindow::restoreLayout() {
   // A minimum of its own: without one the layout makes the window larger whenever a panel asks for
   // more, beyond the screen if need be.
-  const QSize least(scaled(this, leastWindow.width()), scaled(this, leastWindow.height()));
+  const QSize least(scaled(this, minWindow.width()), scaled(this, minWindow.height()));
   setMinimumSize(least.boundedTo(screen()->availableSize()));
   const bool isKept = restoreGeometry(m_settings->value(geometryKey).toByteArray());
   if (!isKept) {
@@ -102,6 +102,7 @@ void MainWindow::restoreLayout() {
       dock->setAttribute(Qt::WA_DontShowOnScreen, false);
     }
   }
+  showTitles();  // now: a title that goes later moves everything
   if (!isKept) m_firstSize = size();
   m_savedLayout = saveState(layoutVersion);
   restoreFieldLayers(*m_field, *m_settings);
@@ -271,6 +272,11 @@ void MainWindow::nameForScreenReaders() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (const QStringList running = m_work.sentences(); !m_closesNow && !running.isEmpty()) {
+    event->ignore();
+    askToClose(running);
+    return;
+  }
   m_fieldOnly->set(false);
   saveLayout();
   m_settings->setValue(layoutKey, saveState(layoutVersion));

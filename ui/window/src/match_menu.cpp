@@ -127,7 +127,6 @@ void addMatchEntries(QMenu* menu, MatchController* controller, MainWindow* windo
   onlyInTheMatch(seed);
   QMenu* who = menu->addMenu(QStringLiteral("Run robot &processes"));
   who->setObjectName(QStringLiteral("whoDecides"));
-  who->setToolTipsVisible(true);
   QObject::connect(who, &QMenu::aboutToShow, who,
                    [who, controller] { fillWhoDecides(who, controller); });
   onlyInTheMatch(who->menuAction());

@@ -3,13 +3,17 @@
 
 #include <QActionGroup>
 #include <QApplication>
+#include <QDesktopServices>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QInputDialog>
 #include <QMenuBar>
 #include <QSettings>
+#include <QUrl>
 
+#include <base/documents.h>
+#include <ui/base/action_reason.h>
 #include <ui/base/notice_bar.h>
 #include <ui/base/undo_history.h>
 #include <ui/calibrate/calibrate_dialog.h>
@@ -29,8 +33,7 @@
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
@@ -50,6 +53,12 @@ QAction* withIcon(QAction* action, const char* icon, const char* id = nullptr) {
   action->setIcon(themedIcon(QLatin1String(icon)));
   if (id != nullptr) action->setObjectName(QLatin1String(id));
   return action;
+}
+
+/// Why a command of the match cannot be given now; empty: it can.
+QString whyNotInTheMatch(const ShownMoment& shown, const MatchEdits& edits) {
+  if (!shown.kind().canBeEdited) return QStringLiteral("Only in Simulate");
+  return edits.isLocked() ? MatchEdits::lockedText() : QString();
 }
 
 /// The panel that was asked for has the keys: its first control that takes them.
@@ -81,10 +90,10 @@ void StudioMenus::make() {
 }
 
 void StudioMenus::onlyInTheMatch(QAction* action) {
-  const auto show = [action, source = m_parts.source, edits = m_parts.controller->edits()] {
-    action->setEnabled(source->kind() == SourceKind::Simulate && !edits->isLocked());
+  const auto show = [action, shown = m_parts.shown, edits = m_parts.controller->edits()] {
+    enableUnless(*action, whyNotInTheMatch(*shown, *edits));
   };
-  QObject::connect(m_parts.source, &SourceSwitch::changed, action, show);
+  QObject::connect(m_parts.shown, &ShownMoment::sourceChosen, action, show);
   QObject::connect(m_parts.controller->edits(), &MatchEdits::lockedChanged, action, show);
 }
 
@@ -110,8 +119,9 @@ void StudioMenus::makeFile() {
                                               [window, file] { window->openSession(file); });
           action->setToolTip(file);
         }
-        recent->setToolTipsVisible(true);
-        recent->setEnabled(!recent->isEmpty());
+        enableUnless(*recent->menuAction(), recent->actions().size() > 1
+                                                ? QString()
+                                                : QStringLiteral("Nothing has been opened yet"));
       });
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
@@ -125,8 +135,8 @@ void StudioMenus::makeFile() {
       "document-save-as");
   asTest->setObjectName(QStringLiteral("saveAsTest"));
   QObject::connect(menu, &QMenu::aboutToShow, asTest,
-                   [asTest, tests] { asTest->setEnabled(tests->isPossible()); });
-  QObject::connect(menu, &QMenu::aboutToHide, asTest, [asTest] { asTest->setEnabled(true); });
+                   [asTest, tests] { enableUnless(*asTest, tests->whyNot()); });
+  QObject::connect(menu, &QMenu::aboutToHide, asTest, [asTest] { enableUnless(*asTest, {}); });
   for (QDockWidget* dock : m_context.docks) {
     if (dock->objectName() != QLatin1String("experiments")) continue;
     QObject::connect(tests, &SituationTests::saved, dock, [dock] {
@@ -146,16 +156,16 @@ void StudioMenus::makeEdit() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Edit"));
   MatchController* controller = m_parts.controller;
   RobotSelection* selection = m_parts.selection;
-  SourceSwitch* source = m_parts.source;
+  ShownMoment* shown = m_parts.shown;
   menu->addAction(withIcon(m_context.undo->undoAction(), "edit-undo", "undo"));
   menu->addAction(withIcon(m_context.undo->redoAction(), "edit-redo", "redo"));
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("Select &all robots"), selection,
-                           [source, selection] {
-                             std::vector<RobotKey> all;
-                             if (const FramePtr frame = source->frame()) {
+                           [shown, selection] {
+                             std::vector<RobotUid> all;
+                             if (const FramePtr frame = shown->frame()) {
                                for (const auto& robot : frame->robots) {
-                                 all.push_back(robot.key);
+                                 all.push_back(robot.uid);
                                }
                              }
                              selection->set(all);
@@ -171,10 +181,16 @@ void StudioMenus::makeEdit() {
         }
       });
   withIcon(remove, "edit-delete", "removeSelected");
-  remove->setEnabled(false);
-  QObject::connect(selection, &RobotSelection::changed, remove, [remove, source](const auto& ids) {
-    remove->setEnabled(!ids.empty() && source->kind() == SourceKind::Simulate);
-  });
+  const auto allow = [remove, shown, selection, edits = controller->edits()] {
+    const QString why = whyNotInTheMatch(*shown, *edits);
+    enableUnless(*remove, !why.isEmpty()             ? why
+                          : selection->ids().empty() ? QStringLiteral("Select a robot first")
+                                                     : QString());
+  };
+  allow();
+  QObject::connect(selection, &RobotSelection::changed, remove, allow);
+  QObject::connect(shown, &ShownMoment::sourceChosen, remove, allow);
+  QObject::connect(controller->edits(), &MatchEdits::lockedChanged, remove, allow);
 }
 
 void StudioMenus::makeThemes(QMenu* menu) {
@@ -240,11 +256,11 @@ void StudioMenus::makeView() {
   QAction* day = menu->addAction(QStringLiteral("Time of &day in Live and Replay"));
   day->setObjectName(QStringLiteral("timesOfDay"));
   day->setCheckable(true);
-  day->setChecked(m_parts.source->timesOfDay());
+  day->setChecked(m_parts.shown->timesOfDay());
   day->setToolTip(QStringLiteral(
       "Show 15:03:12 on axes, timeline, log and readouts instead of the time since the start"));
-  QObject::connect(day, &QAction::toggled, m_parts.source, [parts = m_parts](bool on) {
-    parts.source->setTimesOfDay(on);
+  QObject::connect(day, &QAction::toggled, m_parts.shown, [parts = m_parts](bool on) {
+    parts.shown->setTimesOfDay(on);
     if (parts.settings != nullptr) parts.settings->setValue(QStringLiteral("view/timesOfDay"), on);
   });
   menu->addSeparator();
@@ -312,7 +328,11 @@ void StudioMenus::makeSimulation() {
       QStringLiteral("As on the field, with jitter. When off, the match waits for every process in "
                      "each tick, so results repeat"));
   QObject::connect(menu, &QMenu::aboutToShow, freely, [freely, controller] {
-    freely->setEnabled(controller->cognition() == link::Cognition::Separate);
+    enableUnless(*freely,
+                 controller->cognition() == link::Cognition::Separate
+                     ? QString()
+                     : QStringLiteral("Only if robots run in separate processes (Simulation "
+                                      "> Run robot processes)"));
     freely->setChecked(controller->pace() == link::RobotsPace::Free);
   });
   QObject::connect(freely, &QAction::triggered, controller, [controller](bool on) {
@@ -326,8 +346,8 @@ void StudioMenus::makeSimulation() {
   QAction* clock = menu->addAction(QStringLiteral("Game &clock runs"));
   clock->setCheckable(true);
   onlyInTheMatch(clock);
-  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, source = m_parts.source] {
-    const FramePtr frame = source->frame();
+  QObject::connect(menu, &QMenu::aboutToShow, clock, [clock, shown = m_parts.shown] {
+    const FramePtr frame = shown->frame();
     clock->setChecked(frame && frame->snapshot.clockRunning);
   });
   QObject::connect(clock, &QAction::triggered, controller->edits(), &MatchEdits::setClockRunning);
@@ -351,19 +371,27 @@ void StudioMenus::makeTimeline() {
   asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
   asItWas->setObjectName(QStringLiteral("simulateTrue"));
   goOn->setObjectName(QStringLiteral("continueFromHere"));
-  Timeline* timeline = m_parts.timeline;
-  SourceSwitch* source = m_parts.source;
-  const auto refresh = [asItWas, goOn, timeline, source] {
-    const FramePtr frame = source->frame();
-    asItWas->setEnabled(!frame || frame->truthKnown);
-    goOn->setEnabled(timeline->isLookingBack() && source->kind() == SourceKind::Simulate);
+  ShownMoment* shown = m_parts.shown;
+  const auto refresh = [asItWas, goOn, shown] {
+    const FramePtr frame = shown->frame();
+    enableUnless(*asItWas,
+                 !frame || frame->truthKnown
+                     ? QString()
+                     : QStringLiteral("The true poses are not known here. Simulate as the "
+                                      "robots believe"));
+    enableUnless(*goOn,
+                 !shown->kind().mayBeContinued
+                     ? QStringLiteral("Only a match in Simulate can be continued. Here, simulate "
+                                      "from this moment")
+                 : !shown->isLookingBack() ? QStringLiteral("Look back on the timeline first")
+                                           : QString());
   };
   Explorer* explorer = m_parts.explorer;
   QAction* explore =
       menu->addAction(QStringLiteral("E&xplore from this moment"), explorer, &Explorer::start);
   explore->setObjectName(QStringLiteral("exploreMoment"));
-  explore->setToolTip(QStringLiteral(
-      "Shows where the ball may go, how likely a goal is, and which action is best"));
+  explore->setToolTip(
+      QStringLiteral("Shows where the ball may go and how likely a goal is for each team"));
   for (QDockWidget* dock : m_context.docks) {
     if (dock->objectName() != QLatin1String("explore")) continue;
     QObject::connect(explore, &QAction::triggered, dock, [dock] {
@@ -371,8 +399,8 @@ void StudioMenus::makeTimeline() {
       dock->raise();
     });
   }
-  QObject::connect(timeline, &Timeline::lookingBackChanged, goOn, refresh);
-  QObject::connect(timeline, &Timeline::sourceChanged, goOn, refresh);
+  QObject::connect(shown, &ShownMoment::lookingBackChanged, goOn, refresh);
+  QObject::connect(shown, &ShownMoment::sourceChanged, goOn, refresh);
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
   menu->addSeparator();
   ComparedSession* compared = m_parts.compared;
@@ -388,8 +416,12 @@ void StudioMenus::makeTimeline() {
   withIcon(compare, "view-split-left-right", "compareSession");
   stop->setObjectName(QStringLiteral("stopComparing"));
   const auto showCompared = [byTime, stop, compared] {
-    stop->setEnabled(compared->isOn());
-    byTime->setEnabled(compared->isOn() && !compared->isAlignedByTime());
+    const QString none =
+        compared->isOn() ? QString() : QStringLiteral("No session is being compared");
+    enableUnless(*stop, none);
+    enableUnless(*byTime, none.isEmpty() && compared->isAlignedByTime()
+                              ? QStringLiteral("The sessions are aligned by time")
+                              : none);
   };
   QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
   showCompared();
@@ -421,6 +453,15 @@ void StudioMenus::makePlots() {
 
 void StudioMenus::makeHelp() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Help"));
+  const QString page = QString::fromStdString(documentationPath());
+  QAction* documentation =
+      withIcon(menu->addAction(QStringLiteral("&Documentation"), &m_window,
+                               [page] { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); }),
+               "help-contents", "documentation");
+  documentation->setToolTip(QStringLiteral("Opens %1").arg(page));
+  enableUnless(*documentation,
+               page.isEmpty() ? QStringLiteral("The documentation is not installed") : QString());
+  menu->addSeparator();
   menu->addAction(m_parts.field->actions().showKeys);
   menu->addAction(QStringLiteral("&Keyboard shortcuts"), &m_window, m_context.showShortcuts);
   menu->addAction(QStringLiteral("Copy state &hash"), m_context.status,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/window/scenario_files.h>
 
-#include <QFileDialog>
 #include <QFileInfo>
+#include <map>
 
 #include <base/file_target.h>
+#include <ui/base/file_dialog.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
@@ -61,7 +62,10 @@ void ScenarioFiles::showCurrent(const QString& nameOrPath) {
 }
 
 void ScenarioFiles::save(const QString& path) {
-  link::Scenario moment = m_controller->currentMoment();
+  save(path, m_controller->currentMoment());
+}
+
+void ScenarioFiles::save(const QString& path, link::Scenario moment) {
   moment.name = QFileInfo(path).completeBaseName().toStdString();
   moment.title = moment.name;
   const auto written =
@@ -72,9 +76,15 @@ void ScenarioFiles::save(const QString& path) {
   }
 }
 
+QByteArray ScenarioFiles::picture(const QString& suffix) const {
+  return m_field->pictureFile(m_field->size() * m_window->devicePixelRatioF(), suffix);
+}
+
 void ScenarioFiles::exportPicture(const QString& path) {
-  const QSize size = m_field->size() * m_window->devicePixelRatioF();
-  const QByteArray bytes = m_field->pictureFile(size, QFileInfo(path).suffix());
+  writePicture(path, picture(QFileInfo(path).suffix()));
+}
+
+void ScenarioFiles::writePicture(const QString& path, const QByteArray& bytes) {
   if (bytes.isEmpty()) {
     emit failed(
         QStringLiteral("Cannot write a picture to %1. Choose a name that ends in .png or .svg.")
@@ -91,28 +101,30 @@ void ScenarioFiles::exportPicture(const QString& path) {
 }
 
 void ScenarioFiles::askAndOpen() {
-  const QString path =
-      QFileDialog::getOpenFileName(m_window, QStringLiteral("Open scenario"), {},
-                                   QStringLiteral("Scenarios (*.json);;All files (*)"));
+  const QString path = askToOpen(m_window, QStringLiteral("Open scenario"),
+                                 QStringLiteral("Scenarios (*.json);;All files (*)"));
   if (!path.isEmpty()) open(path);
 }
 
+// The match goes on behind the dialogs: what is saved is taken before.
 void ScenarioFiles::askAndSave() {
-  QString path = QFileDialog::getSaveFileName(
-      m_window, QStringLiteral("Save this moment as a scenario"), QStringLiteral("moment.json"),
-      QStringLiteral("Scenarios (*.json)"));
+  const link::Scenario moment = m_controller->currentMoment();
+  QString path = askToSave(m_window, QStringLiteral("Save this moment as a scenario"),
+                           QStringLiteral("moment.json"), QStringLiteral("Scenarios (*.json)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".json");
-  save(path);
+  save(path, moment);
 }
 
 void ScenarioFiles::askAndExportPicture() {
-  QString path = QFileDialog::getSaveFileName(
-      m_window, QStringLiteral("Export a picture of the field"), QStringLiteral("field.png"),
-      QStringLiteral("Pictures (*.png *.svg)"));
+  const QString png = QStringLiteral("png"), svg = QStringLiteral("svg");
+  const std::map<QString, QByteArray> pictures{{png, picture(png)}, {svg, picture(svg)}};
+  QString path = askToSave(m_window, QStringLiteral("Export a picture of the field"),
+                           QStringLiteral("field.png"), QStringLiteral("Pictures (*.png *.svg)"));
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
-  exportPicture(path);
+  const auto taken = pictures.find(QFileInfo(path).suffix().toLower());
+  writePicture(path, taken == pictures.end() ? QByteArray() : taken->second);
 }
 
 }  // namespace pitchboard::ui

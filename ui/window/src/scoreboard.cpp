@@ -3,6 +3,7 @@
 
 #include <QFontMetrics>
 #include <QPainter>
+#include <cmath>
 
 #include <ui/base/elide_text.h>
 #include <ui/base/theme.h>
@@ -26,9 +27,10 @@ void Scoreboard::setState(const ScoreboardState& state) {
   if (state == m_state) return;
   m_state = state;
   setToolTip(state.tip.isEmpty() ? QStringLiteral("Score, time and game state") : state.tip);
-  setAccessibleName(
-      QStringLiteral("%1 %2 %3, %4, %5")
-          .arg(state.leftName, scoreText(state), state.rightName, state.clock, state.state));
+  setAccessibleName(QStringLiteral("%1 %2 %3, %4, %5")
+                        .arg(state.leftName, scoreText(state), state.rightName,
+                             (state.clock + QLatin1Char(' ') + state.period).trimmed(),
+                             state.state));
   update();
 }
 
@@ -38,10 +40,16 @@ Scoreboard::Widths Scoreboard::widths() const {
   const bool narrow = window < scaled(this, 1100), wide = window >= scaled(this, 1600);
   Widths widths{};
   widths.names = narrow ? themeFont(TypeRole::Body, true) : themeFont(TypeRole::Score);
-  const QFontMetrics names(widths.names), score(themeFont(TypeRole::Score));
+  const QFontMetricsF names(widths.names), score(themeFont(TypeRole::Score)),
+      period(themeFont(TypeRole::Secondary));
+  const auto wide8 = [](const QFontMetricsF& font, const char* text) {
+    return static_cast<int>(std::ceil(font.horizontalAdvance(QLatin1String(text))));
+  };
   widths.name = scaled(this, narrow ? 40 : wide ? 150 : 76);
-  widths.score = score.horizontalAdvance(QStringLiteral("88 : 88"));
-  widths.clock = names.horizontalAdvance(QStringLiteral("88:88")) + scaled(this, 2);
+  widths.score = wide8(score, "88 : 88");
+  widths.clock = wide8(names, "88:88") + scaled(this, 2);
+  // A narrow window has it below the clock.
+  widths.period = narrow ? 0 : wide8(period, "ET 8");
   widths.tag = scaled(this, narrow ? 100 : wide ? 180 : 132);
   widths.gap = scaled(this, narrow ? 5 : 8);
   return widths;
@@ -49,7 +57,8 @@ Scoreboard::Widths Scoreboard::widths() const {
 
 QSize Scoreboard::sizeHint() const {
   const Widths w = widths();
-  return {2 * (w.name + scaled(this, square + 5)) + w.score + w.clock + w.tag + 4 * w.gap +
+  const int period = w.period > 0 ? w.period + w.gap / 2 : 0;
+  return {2 * (w.name + scaled(this, square + 5)) + w.score + w.clock + period + w.tag + 4 * w.gap +
               scaled(this, 4),
           scaled(this, 28)};
 }
@@ -95,7 +104,23 @@ void Scoreboard::paintEvent(QPaintEvent*) {
   const int rightWide = word(rightName, m_state.rightName, w.names, Qt::AlignLeft);
   colourAt(rightName.left() + rightWide + px(5), m_state.rightColour);
   painter.fillRect(QRect(left - 2 * w.gap / 3, px(4), 1, height() - px(8)), theme().innerLine);
-  word(take(w.clock, w.gap), m_state.clock, w.names, Qt::AlignHCenter);
+  // A clock beyond 99:59 gets smaller digits rather than dots.
+  QFont clock = w.names;
+  for (int size = QFontInfo(clock).pixelSize();
+       size > 6 && QFontMetricsF(clock).horizontalAdvance(m_state.clock) > w.clock; --size) {
+    clock.setPixelSize(size - 1);
+  }
+  const QFont period = themeFont(TypeRole::Secondary);
+  if (w.period > 0) {
+    word(take(w.clock, w.gap / 2), m_state.clock, clock, Qt::AlignHCenter);
+    word(take(w.period, w.gap), m_state.period, period, Qt::AlignLeft);
+  } else {
+    const QRect place = take(w.clock, w.gap);
+    const int below = m_state.period.isEmpty() ? 0 : px(11);
+    word(place.adjusted(0, 0, 0, -below), m_state.clock, clock, Qt::AlignHCenter);
+    word(place.adjusted(0, place.height() - below - px(1), 0, -px(1)), m_state.period, period,
+         Qt::AlignHCenter);
+  }
   if (m_state.state.isEmpty()) return;
   const QFont tagFont = themeFont(TypeRole::Secondary, true);
   const QRect place = take(w.tag, 0);

@@ -25,7 +25,7 @@ class Scoreboard : public QWidget {
 
  private:
   struct Widths {
-    int name, score, clock, tag, gap;
+    int name, score, clock, period, tag, gap;
     QFont names;
   };
   Widths widths() const;

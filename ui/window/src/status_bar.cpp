@@ -21,8 +21,7 @@
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -67,11 +66,16 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   m_selected = addLabel("statusSelected", true);
   m_refresh = Beat::display().add(
       this, least, [this] { refresh(); }, most);
-  connect(context.source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
+  connect(context.shown, &ShownMoment::frameReceived, this, [this] { m_refresh->want(); });
   connect(this, &QStatusBar::messageChanged, this, [this](const QString& message) {
     if (message.isEmpty()) refresh();
   });
-  connect(context.source, &SourceSwitch::changed, this, &StudioStatusBar::refresh);
+  connect(context.shown, &ShownMoment::sourceChosen, this, &StudioStatusBar::refresh);
+  connect(context.shown, &ShownMoment::lookingBackChanged, this, &StudioStatusBar::refresh);
+  // Behind a past moment the match pauses and goes on without new frames here.
+  connect(context.controller, &MatchController::frameReceived, this, [this] {
+    if (m_context.shown->isLookingBack()) m_refresh->want();
+  });
   connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
   setContextMenuPolicy(Qt::CustomContextMenu);
   connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
@@ -135,9 +139,9 @@ void StudioStatusBar::refresh() {
 }
 
 void StudioStatusBar::showSource() {
-  const FramePtr frame = m_context.source->frame();
+  const FramePtr frame = m_context.shown->frame();
   showMemory();
-  if (m_context.source->kind() == SourceKind::Live) {
+  if (m_context.shown->source() == m_context.live) {
     showLive(frame.get());
     if (frame)
       showSelected(*frame);
@@ -149,19 +153,18 @@ void StudioStatusBar::showSource() {
   m_processes->setPalette({});
   m_processes->setToolTip({});
   if (!frame) {
-    m_pace->setText(m_context.source->kind() == SourceKind::Replay ? QStringLiteral("No session")
-                    : m_context.controller->isOpening()            ? QStringLiteral("Opening…")
-                                                                   : QStringLiteral("No match"));
+    m_pace->setText(!m_context.shown->kind().hasPresent ? QStringLiteral("No session")
+                    : m_context.controller->isOpening() ? QStringLiteral("Opening…")
+                                                        : QStringLiteral("No match"));
     for (QLabel* label : {m_world, m_processes, m_selected}) label->clear();
     return;
   }
-  if (m_context.source->kind() == SourceKind::Replay) {
+  if (!m_context.shown->kind().hasPresent) {
     m_pace->setText(
         QStringLiteral("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
-    m_world->setText(
-        QStringLiteral("%1 of %2")
-            .arg(momentText(m_context.timeline->shownTime(), 2, m_context.timeline->clock()),
-                 momentText(m_context.timeline->now(), 0, m_context.timeline->clock())));
+    m_world->setText(QStringLiteral("%1 of %2")
+                         .arg(momentText(m_context.shown->time(), 2, m_context.shown->clock()),
+                              momentText(m_context.shown->now(), 0, m_context.shown->clock())));
     const bool unrepeatable = m_context.replay->isUnrepeatable();
     m_processes->setText(unrepeatable ? QStringLiteral("Run is not repeatable") : QString());
     m_processes->setToolTip(
@@ -202,13 +205,13 @@ void StudioStatusBar::showMemory() {
   }
   m_recording->setPalette({});
   m_recording->setToolTip({});
-  if (m_context.source->kind() == SourceKind::Replay) {
+  if (!m_context.shown->kind().hasPresent) {
     const double part = m_context.replay->loaded();
     m_recording->setText(part < 1 ? QStringLiteral("Reading %1 %").arg(static_cast<int>(part * 100))
                                   : QString());
     return;
   }
-  const auto rows = m_context.source->series();
+  const auto rows = m_context.shown->series();
   const auto held = rows ? rows->range() : std::nullopt;
   m_recording->setText(held ? QStringLiteral("Memory holds the last %1 (%2 MB)")
                                   .arg(momentText(held->end - held->begin, 0))
@@ -227,14 +230,27 @@ void StudioStatusBar::showLive(const link::MatchFrame* frame) {
   m_processes->setToolTip(text.trouble.isEmpty() ? QString() : text.tip);
 }
 
+/// A past moment says nothing of how the match goes on meanwhile.
+QString StudioStatusBar::paceText(const link::MatchFrame& shown) const {
+  const FramePtr newest = m_context.controller->frame();
+  const link::MatchFrame& now = newest ? *newest : shown;
+  if (m_context.shown->isLookingBack()) {
+    const QString match =
+        now.finished ? QStringLiteral("the match is over")
+        : now.paused ? QStringLiteral("the match is paused")
+                     : QStringLiteral("the match goes on at ×%1").arg(numberText(now.speed, 2));
+    return QStringLiteral("Viewing %1, %2")
+        .arg(momentText(m_context.shown->time(), 0, m_context.shown->clock()), match);
+  }
+  if (now.finished) return QStringLiteral("Simulation finished");
+  if (now.paused) return QStringLiteral("Simulation paused");
+  return QStringLiteral("Simulation %1/s, ×%2")
+      .arg(countText(static_cast<qulonglong>(std::llround(now.ticksPerSecond))),
+           numberText(now.speed, 2));
+}
+
 void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
-  m_pace->setText(
-      frame.finished ? QStringLiteral("Simulation finished")
-      : frame.paused
-          ? QStringLiteral("Simulation paused")
-          : QStringLiteral("Simulation %1/s, ×%2")
-                .arg(countText(static_cast<qulonglong>(std::llround(frame.ticksPerSecond))),
-                     numberText(frame.speed, 2)));
+  m_pace->setText(paceText(frame));
   const auto robots = frame.robots.size();
   m_world->setText(teamsText(frame) + QStringLiteral("%1, tick %2, seed %3")
                                           .arg(robots == 1

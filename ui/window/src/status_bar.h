@@ -22,15 +22,13 @@ class MatchController;
 class ReplayController;
 class RobotSelection;
 class SessionRecording;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// What the line tells of; everything outlives it.
 struct StatusContext {
   MatchController* controller = nullptr;
-  SourceSwitch* source = nullptr;
+  ShownMoment* shown = nullptr;
   RobotSelection* selection = nullptr;
-  Timeline* timeline = nullptr;
   ReplayController* replay = nullptr;
   SessionRecording* recording = nullptr;
   LiveController* live = nullptr;
@@ -54,6 +52,7 @@ class StudioStatusBar : public QStatusBar {
   void showSource();
   void hideEmpty();
   QPalette alarmPalette() const;
+  QString paceText(const link::MatchFrame& shown) const;
   void showMatch(const link::MatchFrame& frame);
   void showMemory();
   void showLive(const link::MatchFrame* frame);

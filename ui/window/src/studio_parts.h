@@ -20,22 +20,21 @@ class MatchController;
 class PlotTarget;
 class ReplayController;
 class RobotSelection;
+class RunningWork;
 class SessionRecording;
 class SituationTests;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 class TimelineActions;
 
 /// Everything outlives what is made from it.
 struct StudioParts {
   MatchController* controller = nullptr;  ///< edits and transport of the simulated match
-  SourceSwitch* source = nullptr;         ///< what is shown: frames, rows, events
+  ShownMoment* shown = nullptr;           ///< source, moment, events: what everybody shows
   RobotSelection* selection = nullptr;
   FieldView* field = nullptr;
-  LinkedTime* time = nullptr;     ///< visible range, cursor and marks of plots and timeline
+  LinkedTime* time = nullptr;     ///< visible range and cursor of plots and timeline
   QSettings* settings = nullptr;  ///< the user's; may be null
   PlotTarget* plots = nullptr;    ///< where variables can be sent to be plotted
-  Timeline* timeline = nullptr;   ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
   ReplayController* replay = nullptr;  ///< a recorded session
   SessionRecording* recording = nullptr;
@@ -46,6 +45,7 @@ struct StudioParts {
   SituationTests* tests = nullptr;      ///< moments that are saved as tests
   AttachedBoards* boards = nullptr;     ///< blackboards of this computer
   Explorer* explorer = nullptr;         ///< what may follow the moment shown
+  RunningWork* work = nullptr;          ///< what closing the window would end
 };
 
 }  // namespace pitchboard::ui

@@ -14,8 +14,8 @@
 
 namespace pitchboard::ui {
 namespace {
-constexpr int leastWidth = 160;  // px of the mock; with less room tabs could not be read
-constexpr int gap = 24;          // to the tabs of the docks
+constexpr int minWidth = 160;  // px of the mock; with less room tabs could not be read
+constexpr int gap = 24;        // to the tabs of the docks
 }  // namespace
 
 TabCorner::TabCorner(QDockWidget* dock, QWidget* corner, const std::vector<QDockWidget*>& docks)
@@ -68,7 +68,7 @@ void TabCorner::place() {
 void TabCorner::goInto(QTabBar* row) {
   const int left = row->tabRect(row->count() - 1).right() + scaled(row, gap);
   const QRect free(left, 0, row->width() - left, row->height());
-  if (free.width() < scaled(row, leastWidth)) {
+  if (free.width() < scaled(row, minWidth)) {
     goHome();
     return;
   }

@@ -13,37 +13,20 @@
 #include <limits>
 #include <tuple>
 
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
 #include <ui/live/live_bar.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
-#include <ui/sources/playback.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/session_recording.h>
-#include <ui/sources/source_switch.h>
-#include <ui/sources/timeline.h>
+#include <ui/sources/shown_moment.h>
 
 #include "scenario_chooser.h"
 #include "scoreboard.h"
 
 namespace pitchboard::ui {
-namespace {
-
-struct Mode {
-  SourceKind kind;
-  const char* name;
-  const char* tip;
-};
-// The kinds of source that the window can show; a further one is a line here.
-constexpr Mode modes[] = {
-    {SourceKind::Simulate, "Simulate", "Robots simulated on this computer"},
-    {SourceKind::Live, "Live",
-     "Robots and referee received from the network. Nothing is sent to robots"},
-    {SourceKind::Replay, "Replay", "A recorded session"},
-};
-
-}  // namespace
-
 const std::array<double, 8> matchSpeeds{0.1, 0.25, 0.5, 1,
                                         2,   5,    10,  link::MatchRunner::unlimitedSpeed};
 
@@ -70,41 +53,41 @@ TransportBar::TransportBar(const TransportContext& context, QSettings* settings,
   addWidget(edge);
   addModes();
   addSeparator();
-  addControl(SourceKind::Simulate, addWidget(m_scenarios));
-  addControl(SourceKind::Simulate, addSeparator());
+  addControl(m_context.controller, addWidget(m_scenarios));
+  addControl(m_context.controller, addSeparator());
   addTransport();
   addSeparator();
   addRecord();
-  addControl(SourceKind::Live, addWidget(m_liveBar));
+  addControl(m_context.live, addWidget(m_liveBar));
   // A choice made by mouse leaves the keys with the field.
   for (QComboBox* box : findChildren<QComboBox*>()) box->setFocusPolicy(Qt::TabFocus);
 
   constexpr Beat::Milliseconds least{100}, most{500};
   const auto refresh = [this] {
-    if (const FramePtr frame = m_context.source->frame()) {
+    if (const FramePtr frame = m_context.shown->frame()) {
       m_scoreboard->setState(scoreboardOf(*frame));
     }
-    if (isFinished() != m_finished) showTransport();
+    if (isFinished() != m_finished || hasNoReferee() != m_withoutReferee) showTransport();
     if (m_context.recording->isRecording()) showRecord();
   };
   m_refresh = Beat::display().add(this, least, refresh, most);
-  connect(context.source, &SourceSwitch::frameReceived, this, [this] { m_refresh->want(); });
-  connect(context.source, &SourceSwitch::changed, this, &TransportBar::showMode);
+  connect(context.shown, &ShownMoment::frameReceived, this, [this] { m_refresh->want(); });
+  connect(context.shown, &ShownMoment::sourceChosen, this, &TransportBar::showMode);
   showMode();
 }
 
 void TransportBar::addModes() {
   auto* group = new QActionGroup(this);
-  for (const Mode& mode : modes) {
-    auto* action = new QAction(QString::fromUtf8(mode.name), group);
+  for (const FrameSource* source : m_context.shown->sources()) {
+    const SourceKind& kind = source->kind();
+    auto* action = new QAction(QString::fromUtf8(kind.name), group);
     action->setCheckable(true);
-    action->setToolTip(QString::fromUtf8(mode.tip));
-    action->setChecked(mode.kind == m_context.source->kind());
-    connect(action, &QAction::triggered, this, [this, kind = mode.kind] {
+    action->setToolTip(QString::fromUtf8(kind.tip));
+    connect(action, &QAction::triggered, this, [this, &kind] {
       emit sourceRequested(kind);
       showMode();  // the request may have been refused
     });
-    m_modes.push_back({mode.kind, action});
+    m_modes.push_back({source, action});
     auto* button = new QToolButton(this);
     button->setObjectName(QStringLiteral("mode"));
     button->setDefaultAction(action);
@@ -115,14 +98,14 @@ void TransportBar::addModes() {
 void TransportBar::addTransport() {
   m_restart = addAction(themedIcon(QStringLiteral("media-skip-backward")),
                         QStringLiteral("Restart"), this, [this] {
-                          if (Playback* past = playback())
+                          if (ShownMoment* past = played())
                             past->toStart();
                           else
                             m_context.controller->restart();
                         });
   m_play = addAction(themedIcon(QStringLiteral("media-playback-pause")), QStringLiteral("Pause"),
                      this, [this] {
-                       if (Playback* past = playback()) {
+                       if (ShownMoment* past = played()) {
                          past->setPaused(!past->isPaused());
                        } else if (isFinished()) {
                          m_context.controller->restart();
@@ -133,7 +116,7 @@ void TransportBar::addTransport() {
                      });
   m_step = addAction(themedIcon(QStringLiteral("media-skip-forward")), QStringLiteral("One tick"),
                      this, [this] {
-                       if (Playback* past = playback())
+                       if (ShownMoment* past = played())
                          past->step(1);
                        else
                          m_context.controller->stepOnce();
@@ -159,11 +142,9 @@ void TransportBar::addTransport() {
   addWidget(m_speed);
   connect(m_context.controller, &MatchController::transportChanged, this,
           &TransportBar::showTransport);
-  connect(m_context.timeline, &Timeline::lookingBackChanged, this, &TransportBar::showTransport);
-  connect(m_context.timeline, &Timeline::sourceChanged, this, &TransportBar::showTransport);
-  for (Playback* past : {m_context.timeline->past(), m_context.replay->playback()}) {
-    connect(past, &Playback::changed, this, &TransportBar::showTransport);
-  }
+  connect(m_context.shown, &ShownMoment::lookingBackChanged, this, &TransportBar::showTransport);
+  connect(m_context.shown, &ShownMoment::sourceChanged, this, &TransportBar::showTransport);
+  connect(m_context.shown, &ShownMoment::playingChanged, this, &TransportBar::showTransport);
 }
 
 void TransportBar::addSkip() {
@@ -179,7 +160,7 @@ void TransportBar::addSkip() {
   connect(make("skipToEvent", "Skip to next &event",
                "Plays at full speed until the next event on the timeline"),
           &QAction::triggered, this,
-          [this] { m_context.controller->skipToEvent(m_context.timeline->filter()); });
+          [this] { m_context.controller->skipToEvent(m_context.shown->filter()); });
   auto* button = new QToolButton(this);
   button->setObjectName(QStringLiteral("skip"));
   button->setIcon(themedIcon(QStringLiteral("media-seek-forward")));
@@ -191,11 +172,11 @@ void TransportBar::addSkip() {
   menu->addActions(m_skips);
   button->setMenu(menu);
   button->setPopupMode(QToolButton::InstantPopup);
-  addControl(SourceKind::Simulate, addWidget(button));
+  addControl(m_context.controller, addWidget(button));
 }
 
 void TransportBar::setSpeed(double speed) {
-  if (Playback* past = playback())
+  if (ShownMoment* past = played())
     past->setSpeed(speed);
   else
     m_context.controller->setSpeed(speed);
@@ -203,9 +184,9 @@ void TransportBar::setSpeed(double speed) {
 
 // Of the offered ones; a speed that was typed on the command line may stand between two of them.
 double TransportBar::nextSpeed(int by) const {
-  const Playback* past = playback();
+  const ShownMoment* past = played();
   const std::span<const double> speeds =
-      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+      past != nullptr ? ShownMoment::speeds() : std::span<const double>(matchSpeeds);
   const auto rank = [](double speed) {
     return speed == link::MatchRunner::unlimitedSpeed ? std::numeric_limits<double>::max() : speed;
   };
@@ -246,7 +227,7 @@ void TransportBar::addReplayActions(const QList<QAction*>& actions) {
     auto* button = new QToolButton(this);
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonIconOnly);
-    addControl(SourceKind::Replay, addWidget(button));
+    addControl(m_context.replay, addWidget(button));
   }
   showMode();
 }
@@ -275,17 +256,27 @@ void TransportBar::showRecord() {
                     QString::fromStdString(telemetry::freeSpaceText(m_context.recording->status())))
          : QStringLiteral("Record everything into a new file in %1")
                .arg(m_context.recording->folder()));
-  m_record->setEnabled(on || m_context.recording->isPossible());
-  m_recordAction->setVisible(m_context.source->kind() != SourceKind::Replay || on);
+  const bool possible = on || m_context.recording->isPossible();
+  m_record->setEnabled(possible);
+  if (!possible) {
+    m_record->setToolTip(m_context.shown->source() == m_context.live
+                             ? QStringLiteral("Live receives nothing: no port could be opened")
+                             : QStringLiteral("No match is open"));
+  }
+  m_recordAction->setVisible(m_context.shown->kind().hasPresent || on);
 }
 
-Playback* TransportBar::playback() const {
-  const Timeline& timeline = *m_context.timeline;
-  return timeline.isRecording() || timeline.isLookingBack() ? timeline.playback() : nullptr;
+ShownMoment* TransportBar::played() const {
+  return m_context.shown->chosenTime() ? m_context.shown : nullptr;
+}
+
+bool TransportBar::hasNoReferee() const {
+  const FramePtr frame = m_context.controller->frame();
+  return frame && !frame->game;
 }
 
 bool TransportBar::isFinished() const {
-  if (m_context.source->kind() != SourceKind::Simulate) return false;
+  if (m_context.shown->source() != m_context.controller) return false;
   const FramePtr frame = m_context.controller->frame();
   return frame && frame->finished;
 }
@@ -336,10 +327,10 @@ bool TransportBar::event(QEvent* event) {
 }
 
 void TransportBar::showMode() {
-  const SourceKind shown = m_context.source->kind();
-  for (const Control& mode : m_modes) mode.action->setChecked(mode.kind == shown);
-  for (const Control& control : m_controls) control.action->setVisible(control.kind == shown);
-  const FramePtr frame = m_context.source->frame();
+  const FrameSource* shown = m_context.shown->source();
+  for (const Control& mode : m_modes) mode.action->setChecked(mode.source == shown);
+  for (const Control& control : m_controls) control.action->setVisible(control.source == shown);
+  const FramePtr frame = m_context.shown->frame();
   m_scoreboard->setState(frame ? scoreboardOf(*frame) : ScoreboardState{});
   placeScoreboard();
   showTransport();
@@ -348,30 +339,46 @@ void TransportBar::showMode() {
 
 void TransportBar::showTransport() {
   const MatchController& controller = *m_context.controller;
-  const Playback* past = playback();
+  const ShownMoment* past = played();
   m_finished = isFinished();
   const bool again = past == nullptr && m_finished;
   const bool paused = past != nullptr ? past->isPaused() : controller.isPaused() || again;
-  const bool there =
-      past != nullptr ? past->isAvailable() : controller.isOpen() || controller.isOpening();
+  const bool there = past != nullptr ? past->available().has_value()
+                                     : controller.isOpen() || controller.isOpening();
   m_restart->setText(past != nullptr ? QStringLiteral("To the start") : QStringLiteral("Restart"));
-  m_restart->setToolTip(
-      QStringLiteral("%1 (%2)").arg(m_restart->text(), m_restart->shortcut().toString()));
+  const auto withKey = [](const QAction& action) {
+    return QStringLiteral("%1 (%2)").arg(action.text(), action.shortcut().toString());
+  };
   m_play->setText(again    ? QStringLiteral("Play the match again")
                   : paused ? QStringLiteral("Play")
                            : QStringLiteral("Pause"));
-  m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text(), m_play->shortcut().toString()));
   m_play->setIcon(themedIcon(paused ? QStringLiteral("media-playback-start")
                                     : QStringLiteral("media-playback-pause")));
   // Live goes on by itself; only its past can be played. The buttons stay all the same, so that
   // nothing jumps when somebody looks back.
-  const bool usable = past != nullptr || m_context.source->kind() == SourceKind::Simulate;
-  for (QAction* action : transportActions()) action->setEnabled(there && usable);
-  m_step->setEnabled(there && usable && !again);
-  for (QAction* action : m_skips) action->setEnabled(past == nullptr && m_step->isEnabled());
+  const bool usable = past != nullptr || m_context.shown->source() == m_context.controller;
+  const QString why =
+      !usable ? QStringLiteral("Live goes on by itself. Look back on the timeline to play its past")
+      : !there ? QStringLiteral("Nothing to play yet")
+               : QString();
+  const QString whyNoStep =
+      why.isEmpty() && again ? QStringLiteral("The match is over. Play it again") : why;
+  for (QAction* action : transportActions()) enableUnless(*action, why);
+  if (why.isEmpty()) {
+    for (QAction* action : {m_restart, m_play}) action->setToolTip(withKey(*action));
+  }
+  enableUnless(*m_step, whyNoStep);
+  const QString whyNoSkip = past != nullptr && usable
+                                ? QStringLiteral("Only at the newest moment of a match")
+                                : whyNoStep;
+  for (QAction* action : m_skips) enableUnless(*action, whyNoSkip);
+  m_withoutReferee = hasNoReferee();
+  if (whyNoSkip.isEmpty() && m_withoutReferee)
+    enableUnless(*m_skips.front(),
+                 QStringLiteral("This match has no referee, so there is no kick-off"));
   m_speed->setEnabled(usable);
   const std::span<const double> speeds =
-      past != nullptr ? past->speeds() : std::span<const double>(matchSpeeds);
+      past != nullptr ? ShownMoment::speeds() : std::span<const double>(matchSpeeds);
   const double speed = past != nullptr ? past->speed() : controller.speed();
   m_speed->clear();
   for (const double offered : speeds) m_speed->addItem(speedText(offered), offered);

@@ -20,19 +20,16 @@ namespace pitchboard::ui {
 class LiveBar;
 class LiveController;
 class MatchController;
-class Playback;
 class ReplayController;
 class ScenarioChooser;
 class Scoreboard;
 class SessionRecording;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// What the bar shows and moves; everything outlives it.
 struct TransportContext {
   MatchController* controller = nullptr;
-  SourceSwitch* source = nullptr;
-  Timeline* timeline = nullptr;
+  ShownMoment* shown = nullptr;
   ReplayController* replay = nullptr;
   SessionRecording* recording = nullptr;
   LiveController* live = nullptr;
@@ -58,7 +55,7 @@ class TransportBar : public QToolBar {
   QList<QAction*> speedSteps() const { return m_speedSteps; }
 
  signals:
-  void sourceRequested(pitchboard::ui::SourceKind kind);
+  void sourceRequested(const pitchboard::ui::SourceKind& kind);
 
  protected:
   bool event(QEvent* event) override;
@@ -68,23 +65,26 @@ class TransportBar : public QToolBar {
   /// At the right, whatever else has room: what is hidden first is not the score.
   void placeScoreboard();
   bool isFinished() const;
+  bool hasNoReferee() const;
   void addModes();
-  /// Shown while a source of this kind is; hidden otherwise.
-  void addControl(SourceKind kind, QAction* action) { m_controls.push_back({kind, action}); }
+  /// Shown while this source is; hidden otherwise.
+  void addControl(const FrameSource* source, QAction* action) {
+    m_controls.push_back({source, action});
+  }
   void showMode();
   void addTransport();
   void addSkip();
   void addRecord();
   void showRecord();
   /// What the buttons move when not the match; null otherwise.
-  Playback* playback() const;
+  ShownMoment* played() const;
   void showTransport();
   /// Of the match, or of what is played back.
   void setSpeed(double speed);
   double nextSpeed(int by) const;
 
   struct Control {
-    SourceKind kind;
+    const FrameSource* source;
     QAction* action;
   };
 
@@ -101,7 +101,7 @@ class TransportBar : public QToolBar {
   QAction* m_play;
   QAction* m_step;
   QList<QAction*> m_speedSteps, m_skips;
-  bool m_finished = false;
+  bool m_finished = false, m_withoutReferee = false;
   std::unique_ptr<Beat::Part> m_refresh;
 };
 

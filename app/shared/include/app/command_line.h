@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,9 +21,17 @@ inline constexpr int exitRefused = 2;
 /// Prints "error: ..." on stderr and returns exitRefused.
 int reportError(const Error& error);
 
+/// The error of standard output that cannot be written; `reason` is an errno value, or 0.
+Error outputError(int reason);
+/// Writes what is left of standard output. Returns `exitCode`, or after an error message
+/// exitRefused if some of the output could not be written. The last call of a program.
+int checkOutput(int exitCode);
+
 /// Reads the command line. Returns an exit code if the program has to end (help, version, invalid
-/// usage).
-std::optional<int> parse(CLI::App& app, int argc, char** argv);
+/// usage). `--option-list NAME` prints the options of the program or command of that name for
+/// scripts, one in a line: name, "flag" or "value", and the text of `window` if there is one.
+std::optional<int> parse(CLI::App& app, int argc, char** argv,
+                         const std::map<std::string, std::string>& window = {});
 
 /// Reads all of the text as a number with a decimal point; empty if it is not one.
 std::optional<double> numberFrom(std::string_view text);

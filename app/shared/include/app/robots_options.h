@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Options of all commands that play a match: the programs of its robots, and the number, blackboard
-// keys and pace of the match. Used at the start of a program, on its main thread.
+// Options of all commands that play a match: the programs of its robots, its speed, and the number,
+// blackboard keys and pace of the match. Used at the start of a program, on its main thread.
 
 #include <CLI/CLI.hpp>
 
@@ -15,13 +15,17 @@
 namespace pitchboard::shared {
 
 struct RobotsOptions {
+  std::string cognition = "inline";
+  std::string speed;  ///< "max" or a number; empty: depends on the program and the match
   std::optional<int> match, keyBase;
   std::string pace = "lock-step";
   std::vector<std::string> runtimes;  ///< "own", "blue=own", "B1=program=/home/me/decide"
 };
 
-/// Adds --match, --key-base, --pace and --runtime.
+/// Adds the options. The default of the cognition is that of `options`.
 void addRobotsOptions(CLI::App& command, RobotsOptions& options);
+
+link::Cognition cognitionOf(const RobotsOptions& options);
 
 /// Applies the runtimes to the scenario. Errors name the option.
 Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions& options);

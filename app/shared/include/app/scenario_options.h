@@ -16,15 +16,11 @@ namespace pitchboard::shared {
 struct ScenarioOptions : link::ScenarioOverrides {
   std::string scenario = "match";
   std::vector<std::string> robotModels;  ///< "kid-size", "red=my-robot.json"; the last one wins
-  std::vector<std::string> advised;      ///< teams that think ahead: "blue"
+  std::vector<std::string> advised;      ///< teams whose keeper has an advisor: "blue"
 };
 
 /// Adds --scenario, --seed, --noise, --physics, --robot-model and --advisor.
 void addScenarioOptions(CLI::App& command, ScenarioOptions& options);
-
-/// Checks an option that takes a whole number. Returns an error message for a negative number,
-/// which would otherwise become a huge one; empty if the number is valid.
-std::string refuseNegative(const std::string& text);
 
 /// Applies seed, noise, physics, robot models and advisors to a scenario.
 Result<link::Scenario> changed(link::Scenario scenario, const ScenarioOptions& options);

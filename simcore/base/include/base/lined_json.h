@@ -63,10 +63,10 @@ class JsonReport {
   std::vector<Error> m_errors;
 };
 
-/// Parses a text. Refuses more than `mostBytes`, nesting deeper than 64, duplicate keys, and
+/// Parses a text. Refuses more than `maxBytes`, nesting deeper than 64, duplicate keys, and
 /// anything that is not JSON. Returns nothing exactly if `report` has an error.
 std::optional<JsonNode> parseJson(std::string_view text, JsonReport& report,
-                                  std::size_t mostBytes = std::size_t{1} << 20);
+                                  std::size_t maxBytes = std::size_t{1} << 20);
 
 /// The range of a number. `unit` is in the plural, for people; empty for plain numbers.
 struct NumberRange {

@@ -9,7 +9,8 @@
 
 namespace pitchboard {
 
-/// Returns the known name that is most similar to a mistyped one; empty if none is similar.
+/// Returns the known name that is most similar to a mistyped or shortened one; empty if none is
+/// similar.
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> known);
 
 }  // namespace pitchboard

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A new file that is written from front to back. Every error is a sentence that says what to do.
+// A new file that is written from front to back, and locked for others until it is closed
+// (isBeingWritten()). Every error is a sentence that says what to do.
 // Used by one thread; sync() and syncFolder() may run on another one meanwhile. Use FileTarget for
 // files that must only appear when they are complete.
 
@@ -14,11 +15,19 @@
 
 namespace pitchboard {
 
+/// Returns whether somebody has this open file open for writing: the owner of a NewFile, also in
+/// another process, or with `othersToo` any program of this user on this computer, which takes
+/// longer. Any thread.
+bool isBeingWritten(int descriptor, bool othersToo = false);
+
 class NewFile {
  public:
   /// Creates a file. Fails with Conflict if it exists, with SystemError if it cannot be created.
   /// Errors name `shownAs` instead of `path` if it is given, for a file that is renamed later.
   static Result<NewFile> create(const std::string& path, const std::string& shownAs = {});
+  /// Creates a file that takes the place of an old one, if there is one, at once. Fails with
+  /// Conflict if the old one is being written, with SystemError if it cannot be replaced.
+  static Result<NewFile> replace(const std::string& path);
   /// Opens a device or a pipe, which exists already.
   static Result<NewFile> openDevice(const std::string& path);
 

@@ -17,7 +17,8 @@ enum class NoiseStream : std::uint32_t {
   RobotVision = 4,
   Landmarks = 5,
   Imu = 6,
-  Behaviour = 7
+  Behaviour = 7,
+  Coin = 8
 };
 
 /// The random numbers of one (robot, stream, tick), in order. A small value, cheap to create.

@@ -43,7 +43,7 @@ class RandomBatch {
  private:
   std::vector<std::uint32_t> m_high, m_robot;  // of each block: what differs in its counter
   std::vector<double> m_wholes;                // 53 random bits each, as a whole number
-  std::vector<double> m_normals;               // their quantiles, right in the middle only
+  std::vector<double> m_normals;               // normal quantiles; only the middle part is exact
   std::size_t m_stride = 0;                    // random numbers of a robot
 };
 

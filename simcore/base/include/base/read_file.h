@@ -12,11 +12,11 @@
 namespace pitchboard {
 
 /// Returns the content of a file; `what` begins an error: "The profile". Fails with NotFound, with
-/// Unsupported if it has more than `mostBytes`, or with SystemError (also for a folder).
-Result<std::string> readFile(const std::string& path, std::size_t mostBytes,
+/// Unsupported if it has more than `maxBytes`, or with SystemError (also for a folder).
+Result<std::string> readFile(const std::string& path, std::size_t maxBytes,
                              const std::string& what = "The file");
 /// The same for an open descriptor such as standard input; it stays open.
-Result<std::string> readDescriptor(int descriptor, std::size_t mostBytes, const std::string& what,
+Result<std::string> readDescriptor(int descriptor, std::size_t maxBytes, const std::string& what,
                                    const std::string& context);
 
 }  // namespace pitchboard

@@ -13,7 +13,7 @@
 
 namespace pitchboard {
 
-inline constexpr std::size_t longestShortName = 64;
+inline constexpr std::size_t maxShortNameLength = 64;
 
 constexpr bool isShortNameLetter(char c) {
   return std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.")
@@ -22,7 +22,7 @@ constexpr bool isShortNameLetter(char c) {
 
 /// Returns the short name under `key`, or `fallback` if there is none. Other characters are errors.
 inline std::string readShortName(const JsonObject& object, std::string_view key,
-                                 std::string fallback, std::size_t longest = longestShortName) {
+                                 std::string fallback, std::size_t longest = maxShortNameLength) {
   std::string name = object.text(key, std::move(fallback), longest);
   if (object.find(key) && (name.empty() || !std::ranges::all_of(name, isShortNameLetter))) {
     object.fail(key, "must consist of letters, digits, '-', '_' and '.'");

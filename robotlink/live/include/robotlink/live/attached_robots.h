@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -88,9 +89,9 @@ class AttachedRobots {
   /// Returns each board that was ever attached as a robot, with the name of its group.
   std::vector<RobotFrame> robots(
       const sim::FieldSpec& field,
-      const telemetry::BatteryLimits& battery = telemetry::usualBattery) const;
+      const telemetry::BatteryLimits& battery = telemetry::defaultBattery) const;
   /// Returns the rows since the last call.
-  void takeRows(const BoardRowsTaker& take);
+  void drainRows(const BoardRowsTaker& take);
   std::vector<AttachedStatus> status() const;
 
  private:
@@ -105,34 +106,32 @@ class AttachedRobots {
 class BoardRowKeeper {
  public:
   explicit BoardRowKeeper(std::shared_ptr<telemetry::RowSink> sink) : m_sink(std::move(sink)) {}
-  void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
-    take(group.name, group, {group.name, {}}, rows);
-  }
-  /// The present name of a group, and attributes besides its own.
-  struct Name {
+  /// The present name of a group, and what is known besides the facts of its board.
+  struct Facts {
     std::string name;
-    std::map<std::string, std::string> attributes;
-    bool operator==(const Name&) const = default;
+    telemetry::RobotFacts robot;
+    bool operator==(const Facts&) const = default;
   };
-  /// Adds rows of a board. `board` identifies it and never changes, unlike the name of its group.
-  void take(const std::string& board, const telemetry::GroupInfo& group, const Name& name,
+  /// Adds rows of a board that its name identifies.
+  void take(const telemetry::GroupInfo& group, std::span<const BoardRow> rows) {
+    take({}, group, {group.name, {}}, rows);
+  }
+  /// Adds rows of a board that `id` identifies (GroupInfo::id).
+  void take(const std::string& id, const telemetry::GroupInfo& group, const Facts& facts,
             std::span<const BoardRow> rows);
-  // Renames groups in two steps, because groups may exchange their names. `names` is by board.
-  /// First step: drops boards that are not in `names`, whose groups new boards may continue, and
-  /// frees the names of groups that will be renamed.
-  void releaseNames(const std::map<std::string, Name>& names);
-  /// Second step: gives the groups their new names.
-  void rename(const std::map<std::string, Name>& names);
+  /// Gives groups other names and facts, all at once. `facts` is by id. Groups that are
+  /// missing in it are not received any more; they keep their names, but give way.
+  void describe(const std::map<std::string, Facts>& facts);
 
  private:
   struct Known {
     telemetry::GroupId id = 0;
-    Name name;
     telemetry::GroupInfo info;
+    std::optional<telemetry::RobotFacts> own;  // of the board
+    void describe(const Facts& facts);
   };
-  void describe(Known& known, const Name& name);
   std::shared_ptr<telemetry::RowSink> m_sink;
-  std::map<std::string, Known> m_groups;
+  std::map<std::string, Known> m_groups;  // by GroupInfo::id, or by name
 };
 
 }  // namespace pitchboard::link

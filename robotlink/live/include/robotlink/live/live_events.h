@@ -10,7 +10,9 @@
 #include <vector>
 
 #include <robotlink/frame/ball_sight.h>
-#include <robotlink/live/live_watch.h>
+#include <robotlink/frame/match_event.h>
+#include <robotlink/frame/match_frame.h>
+#include <telemetry/wire/udp_receiver.h>
 
 namespace pitchboard::link {
 
@@ -19,29 +21,33 @@ class LiveEvents {
   /// Returns what has happened since the last call. The first call returns events for everything
   /// that its frame contains.
   std::vector<MatchEvent> compare(const MatchFrame& now);
-  /// Returns events for ports that can no longer be bound, or can be bound again.
-  std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network, double time);
+  /// Returns events for ports that can no longer be bound, or can be bound again, or that other
+  /// programs receive, too: `shared` says which, see telemetry::sharedPortsText().
+  std::vector<MatchEvent> comparePorts(const telemetry::ReceiverStatus& network,
+                                       const std::string& shared, double time);
   /// `setBy` is by how much the computer's clock has been changed since the beginning. A change of
   /// a second or more becomes an event.
   std::vector<MatchEvent> compareClock(telemetry::Duration setBy, double time);
-  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
 
  private:
   struct Known {
     telemetry::Address address;
     bool timedOut = false;
+    double lastMessage = 0.0;  // s
     bool conflict = false;
     std::optional<Penalty> penalty;
     bool batteryLow = false;
     double lowFraction = 0.0;  // when it became low
     BallSight ball;
   };
-  void compareReferee(const RefereeView& now, double time, std::vector<MatchEvent>& out);
+  void compareReferee(const MatchFrame& now, std::vector<MatchEvent>& out);
   void compareRobot(const RobotFrame& received, double time, std::vector<MatchEvent>& out);
 
-  std::optional<RefereeView> m_referee;
-  std::map<RobotKey, Known> m_robots;
+  std::optional<Game> m_game;
+  RefereeReception m_reception;
+  std::map<RobotUid, Known> m_robots;
   std::map<std::uint16_t, std::string> m_ports;  // what was wrong with each
+  std::string m_shared;
   telemetry::Duration m_setBy{};
 };
 

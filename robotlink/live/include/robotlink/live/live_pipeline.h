@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,14 +15,17 @@
 
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/live_events.h>
+#include <robotlink/live/live_observer.h>
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_state.h>
-#include <robotlink/live/live_watch.h>
+#include <robotlink/live/robot_uids.h>
 #include <robotlink/live/sent_boards.h>
 
 namespace pitchboard::link {
 
-/// Passes rows to any number of sinks. A group is added to a sink with its first row.
+/// Passes rows to any number of sinks. A group is added to a sink with its first row. Between
+/// hold() and release(), names and facts of known groups are kept back, so that all sinks get
+/// them together: robots may exchange their names.
 class RowFan : public telemetry::RowSink {
  public:
   void add(std::shared_ptr<telemetry::RowSink> sink) { m_sinks.push_back({std::move(sink), {}}); }
@@ -29,18 +33,22 @@ class RowFan : public telemetry::RowSink {
   bool isEmpty() const { return m_sinks.empty(); }
 
   telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
-  telemetry::GroupId renameGroup(std::string_view from, const telemetry::GroupInfo& to) override;
+  void describeGroups(std::span<const telemetry::GroupInfo> groups) override;
+  void hold() { m_isHeld = true; }
+  void release();
   void append(telemetry::GroupId group, const telemetry::RowView& row) override;
 
  private:
   struct Sink {
     std::shared_ptr<telemetry::RowSink> rows;
-    std::vector<std::optional<telemetry::GroupId>> groups;  // place as in m_groups
+    std::vector<std::optional<telemetry::GroupId>> groups;  // index as in m_groups
   };
-  std::size_t placeOf(std::string_view name) const;
+  std::size_t indexOf(const telemetry::GroupInfo& group) const;
 
   std::vector<telemetry::GroupInfo> m_groups;
   std::vector<Sink> m_sinks;
+  std::set<std::size_t> m_described;  // groups that the sinks know otherwise
+  bool m_isHeld = false;
 };
 
 class LivePipeline {
@@ -54,18 +62,23 @@ class LivePipeline {
   /// Forgets robots, referee and counters.
   void clear(telemetry::WallTime now);
   /// Forgets a robot, or one of two programs with its number.
-  void forget(const RobotKey& robot, telemetry::WallTime now);
+  void forget(RobotUid robot, telemetry::WallTime now);
 
   /// Takes a datagram. The port decides whether it comes from the referee.
-  void take(const telemetry::DatagramView& datagram);
-  /// Returns the frame of this moment. The robots of `boards` are added, and their rows taken.
-  MatchFrame frame(telemetry::WallTime now, AttachedRobots* boards = nullptr);
+  void take(const telemetry::DatagramView& received);
+  /// Returns the frame of this moment, with the robots of `boards`. It changes nothing.
+  MatchFrame frame(telemetry::WallTime now, const AttachedRobots* boards = nullptr) const;
+  /// Does what is due: passes on rows, events and reports, and the frame, which it returns. The
+  /// rows of `boards` are taken.
+  MatchFrame advance(telemetry::WallTime now, AttachedRobots* boards = nullptr);
   /// Takes by how much the computer's clock was set since the beginning, and the ports' states.
   void noticeClock(telemetry::Duration setBy, double time);
   void noticePorts(const telemetry::ReceiverStatus& network, double time);
+  /// Returns telemetry::sharedPortsText() for the ports of the options.
+  std::string sharedPorts(const telemetry::ReceiverStatus& network) const;
 
   /// Returns what is new since the last call, without the frame.
-  LiveNews takeNews() { return std::exchange(m_news, {}); }
+  LiveNews drainNews() { return std::exchange(m_news, {}); }
   /// Returns the status that the pipeline knows; the watch completes it.
   LiveDetails details(telemetry::WallTime now) const;
 
@@ -73,38 +86,53 @@ class LivePipeline {
   void stopObserving(const std::shared_ptr<LiveObserver>& observer);
 
  private:
+  using SentKey = std::pair<telemetry::Address, int>;  // who sends variables, and its number
   double seconds(telemetry::WallTime time) const { return telemetry::secondsOf(time - m_zero); }
   void takeReferee(const telemetry::DatagramView& datagram);
   void takeVariables(const telemetry::DatagramView& datagram);
-  void addBoards(MatchFrame& frame, AttachedRobots* attached, telemetry::WallTime now);
+  /// A robot of a frame whose blackboard is received.
+  struct Board {
+    SentKey sender;
+    std::optional<int> key;  // of an attached one
+    std::string group;       // of its rows, if it is sent
+    RobotUid robot;
+  };
+  MatchFrame join(const telemetry::TeamStatus& team, const AttachedRobots* attached,
+                  telemetry::WallTime now, std::vector<Board>& boards) const;
+  void nameBoards(const MatchFrame& frame, const std::vector<Board>& boards,
+                  telemetry::WallTime now);
   void useCatalogs();
+  void nameGroups(telemetry::WallTime now);
+  std::map<std::string, BoardRowKeeper::Facts> agentFacts(const std::vector<SentStatus>& all) const;
   void reportSent(telemetry::WallTime now);
+  std::optional<int> teamOf(int number, telemetry::Address sender) const;
   void notify(const LiveDatagram& datagram);
   void notify(const std::vector<MatchEvent>& events);
   void sendSnapshot(telemetry::WallTime now);
-  void noteTeams(const std::vector<Renaming>& renamings);
+  void noteTeams();
 
   LiveOptions m_options;
   telemetry::MonitorOptions m_monitorOptions;
   const telemetry::WallTime m_zero;
+  telemetry::WallTime m_saved = telemetry::WallTime::min();  // of the newest saved state
   LiveState m_state;
   Teams m_teams = m_state.teams(m_options);
   LiveEvents m_events;
   std::shared_ptr<RowFan> m_fan = std::make_shared<RowFan>();
-  telemetry::LiveRows m_rows;
+  LiveRows m_rows;
+  bool m_hasNewNames = false;  // that the groups of rows do not have yet
   SentBoards m_sent;
   BoardRowKeeper m_boardRows, m_sentHealth;
-  std::map<RobotKey, std::string> m_boardNames;  // robots whose blackboards are received
-  /// Senders of variables with their numbers, and the robots that they are.
-  using SentKey = std::pair<telemetry::Address, int>;
-  std::map<SentKey, RobotKey> m_sentRobots;
+  std::map<RobotUid, std::string> m_boardNames;  // robots whose blackboards are received
+  std::map<std::string, BoardRowKeeper::Facts> m_boardFacts;  // the same, by GroupInfo::id
+  /// The robots that senders of variables are.
+  std::map<SentKey, RobotUid> m_sentRobots;
   double m_nextReport = 0.0, m_nextSnapshot = 0.0, m_nextSentReport = 0.0;  // s
-  std::uint64_t m_serial = 0, m_unknownReferee = 0, m_refusedReferees = 0;
+  std::uint64_t m_serial = 0, m_unknownReferee = 0, m_refusedReferees = 0, m_ignoredSimulated = 0;
   std::string m_unknownReason, m_unknownSample;
   std::uint64_t m_badVariables = 0, m_refusedVariables = 0;
   std::string m_badReason;
   LiveNews m_news;
-  std::vector<std::vector<Renaming>> m_renamings;  // that no frame shows yet
   std::vector<std::shared_ptr<LiveObserver>> m_observers;
 };
 

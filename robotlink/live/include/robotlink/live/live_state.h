@@ -14,7 +14,10 @@
 #include <utility>
 
 #include <robotlink/frame/match_frame.h>
-#include <robotlink/live/live_watch.h>
+#include <robotlink/live/live_options.h>
+#include <robotlink/live/robot_uids.h>
+#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/wire/referee_tracker.h>
 
 namespace pitchboard::link {
 
@@ -24,10 +27,13 @@ struct LiveState {
   telemetry::TeamMonitor monitor;
   telemetry::RefereeTracker referee;
   telemetry::DrawingStore drawings;
+  /// Who sends under which key. Shared with those that make rows of the same robots. Null: this
+  /// state comes from a session before 0.23, where a robot is identified by its key (uidOf()).
+  std::shared_ptr<RobotUids> uids = std::make_shared<RobotUids>();
   /// Returns the robot whose drawing was taken last; empty if it cannot be shown.
   std::optional<RobotKey> lastDrawer;
 
-  /// Changes the monitor's options; drawings follow their robots: monitor.renamings().
+  /// Changes the monitor's options; uids and drawings follow their robots.
   void setTeams(const telemetry::MonitorOptions& options);
   /// Takes a datagram of a robot's port that arrived at this time (s since the watch began), with
   /// its drawing and message. Returns nothing if it had no message.
@@ -41,6 +47,10 @@ struct LiveState {
                    double time) const;
   /// Returns the teams as they are known now.
   Teams teams(const LiveOptions& options) const;
+  /// Forgets a robot; another program that uses its number takes its place.
+  void forget(const RobotKey& robot);
+  /// Forgets simulated robots and a simulated referee.
+  void forgetSimulated(const LiveOptions& options);
   /// Forgets robots, referee and counters.
   void clear(const LiveOptions& options);
 
@@ -52,6 +62,9 @@ struct LiveState {
   static Result<Read> read(std::string_view json, telemetry::WallTime zero);
 
  private:
+  void forgetReferee(const LiveOptions& options);
+  void followKeys();
+
   /// Datagrams that bring the tracker into its present state.
   struct Kept {
     telemetry::WallTime time;
@@ -59,7 +72,7 @@ struct LiveState {
     std::uint16_t localPort = 0;
     std::string payload;
   };
-  std::optional<Kept> m_shown, m_other, m_trueData;
+  std::optional<Kept> m_former, m_shown, m_late, m_other, m_trueData;
   std::map<std::pair<int, int>, Kept> m_replies;  // by team and player
 };
 

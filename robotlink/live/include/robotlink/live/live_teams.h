@@ -9,8 +9,8 @@
 #include <string>
 
 #include <robotlink/frame/teams.h>
+#include <robotlink/live/live_options.h>
 #include <robotlink/live/live_rows.h>
-#include <robotlink/live/live_watch.h>
 
 namespace pitchboard::link {
 
@@ -24,9 +24,9 @@ telemetry::MonitorOptions monitorOptions(const LiveOptions& options);
 /// Fails with InvalidArgument.
 Result<void> chooseOurTeam(LiveOptions& options, std::string_view text);
 /// Returns our team's number in the GameController, chosen by number or colour; 0 if unknown.
-int ourNumber(const LiveOptions& options, const telemetry::RefereeState* referee);
-/// Returns the teams, as setups and referee (null: none) name them.
-Teams teamsOf(const LiveOptions& options, const telemetry::RefereeState* referee);
+int ourNumber(const LiveOptions& options, const std::optional<Game>& game);
+/// Returns the teams, as setups and the referee's game name them.
+Teams teamsOf(const LiveOptions& options, const std::optional<Game>& game);
 
 /// Returns the colour in which a robot is drawn; one is chosen if it is unknown.
 TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const Teams& teams);
@@ -34,8 +34,7 @@ TeamColor drawnColour(const LiveOptions& options, const RobotKey& robot, const T
 std::string ownNameOf(const LiveOptions& options, const RobotKey& robot);
 
 /// Returns how groups of rows are named and described; `boards` as in LiveRowsOptions.
-telemetry::LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams,
-                                       telemetry::WallTime zero,
-                                       std::map<RobotKey, std::string> boards = {});
+LiveRowsOptions rowsOptions(const LiveOptions& options, Teams teams, telemetry::WallTime zero,
+                            std::map<RobotUid, std::string> boards = {});
 
 }  // namespace pitchboard::link

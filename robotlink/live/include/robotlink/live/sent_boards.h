@@ -6,6 +6,7 @@
 // LivePipeline, used on its thread.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include <robotlink/blackboard/variable_catalog.h>
 #include <robotlink/frame/robot_frame.h>
 #include <robotlink/live/attached_robots.h>
+#include <robotlink/live/robot_uids.h>
 #include <telemetry/pb2/pb2.h>
 #include <telemetry/wire/datagram.h>
 #include <telemetry/wire/link_health.h>
@@ -29,6 +31,7 @@ struct NamedCatalog {
 
 /// How the variables of one robot arrive.
 struct SentStatus {
+  RobotUid uid;
   RobotKey robot;                    ///< the key in the frames
   std::string name;                  ///< robotName() of the key
   telemetry::LinkHealth link;        ///< its jitter is that of the latency
@@ -47,7 +50,8 @@ class SentBoards {
   static constexpr std::size_t maxVariables = 1000;  ///< per robot
   static constexpr std::size_t maxRobots = 64;
 
-  SentBoards();
+  /// `uids` may be shared with others that receive the same robots.
+  explicit SentBoards(std::shared_ptr<RobotUids> uids = std::make_shared<RobotUids>());
   ~SentBoards();
 
   /// Sets the catalogs, of which there must be at least one. A robot's catalog is the one that
@@ -67,10 +71,15 @@ class SentBoards {
   Verdict take(const telemetry::Pb2Message& message, const telemetry::DatagramView& datagram,
                int place, double arrival);
 
-  /// Calls `take` with the rows since the last call. The name of a group identifies the robot and
-  /// is not shown; it does not change with the robot's address, which is the group's attribute
-  /// "sent". Rows begin once each variable that the robot sends has been received.
-  void takeRows(const BoardRowsTaker& take);
+  /// Calls `take` with the rows since the last call, from the first value that a robot sends on.
+  /// The name of a group is its GroupInfo::id and is not shown; it does not change with the robot's
+  /// address, which is RobotFacts::sentFrom. Variables that come later become further
+  /// columns, which are NaN in the rows before.
+  void drainRows(const BoardRowsTaker& take);
+  /// Returns the RobotKey::team of a robot with this number at this address.
+  using Placing = std::function<std::optional<int>(int number, telemetry::Address sender)>;
+  /// The teams have changed.
+  void place(const Placing& placeOf);
   /// Returns the robots for joinBoards(): their team is the `place` of take(), their name that of
   /// their group, and they have no colour.
   std::vector<RobotFrame> robots(telemetry::WallTime now, const sim::FieldSpec& field,
@@ -83,7 +92,7 @@ class SentBoards {
 
  private:
   struct Robot;
-  Robot* robotOf(int number, const telemetry::Sender& sender, telemetry::WallTime time);
+  Robot* robotOf(int number, const telemetry::Sender& sender, int place, telemetry::WallTime time);
   void describe(Robot& robot) const;
   void append(Robot& robot, double time) const;
   const NamedCatalog& catalogOf(const Robot& robot) const;
@@ -91,8 +100,8 @@ class SentBoards {
 
   std::vector<NamedCatalog> m_catalogs;
   telemetry::Duration m_timeout = std::chrono::seconds(10);
+  std::shared_ptr<RobotUids> m_uids;
   std::vector<std::unique_ptr<Robot>> m_robots;
-  std::uint64_t m_made = 0;  // robots, ever
 };
 
 }  // namespace pitchboard::link

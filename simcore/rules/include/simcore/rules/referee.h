@@ -12,9 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include <base/game.h>
 #include <base/result.h>
 #include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
+#include <simcore/world/field.h>
+#include <simcore/world/referee_memory.h>
+#include <simcore/world/referee_rules.h>
 #include <simcore/world/snapshot.h>
 
 namespace pitchboard::sim {
@@ -41,7 +45,7 @@ enum class CallKind : std::uint8_t {
 struct RefereeCall {
   CallKind kind = CallKind::State;
   PlayState state = PlayState::Initial;
-  int team = GameState::noTeam;  ///< index of GameState::teams
+  int team = Game::noTeam;  ///< index of Game::teams
   RobotId robot{};
   SetPlay setPlay = SetPlay::None;
   PenaltyKind penalty = PenaltyKind::None;
@@ -65,16 +69,29 @@ struct Placements {
 /// by the colours on the field if the settings name none. In each team, the robot that stands
 /// nearest to its own goal in `now` is the goalkeeper. Sets the direction of attack of each robot
 /// in `world`. Error InvalidArgument if robots of more than two teams are on the field.
-Result<GameState> newGame(WorldState& world, const Snapshot& now);
+Result<Game> newGame(WorldState& world, const Snapshot& now);
+
+/// Error Conflict if the game is between two other teams.
+Result<void> checkTeam(const Game& game, TeamColor team);
 
 /// Gives a slot of GameTeam::players to each robot that has none, as long as slots are free.
-void giveSlots(std::span<const RobotIdentity> robots, GameState& game);
+void giveSlots(std::span<const RobotIdentity> robots, Game& game);
+
+/// Returns where these rules put the ball for a set play of a team that attacks towards +x (`sign`
+/// 1) or −x (−1), if the ball left the field or lay at `where`.
+Point setPlayPlace(SetPlay play, double sign, const Point& where, RefereeStyle style,
+                   const FieldSpec& field);
 
 /// Error InvalidArgument, with the key as context, if no game can be played by these rules.
 Result<void> validate(const RefereeRules& rules);
 /// Returns false if the game has values that no game can have, such as one read from a damaged
 /// file.
-bool isPlausible(const GameState& game, std::size_t robots);
+bool isPlausible(const Game& game, const RefereeMemory& memory, std::size_t robots);
+
+/// Appends what a GameController's packet has changed in the game since `before`, as events of this
+/// tick. In the first packet (`joins`) another score is a correction: nobody saw the goals.
+void reportObeyed(const Game& before, bool joins, const WorldState& world,
+                  std::vector<Event>& events);
 
 /// Carries out a call of a person or program. If the state of the game does not allow it, returns
 /// the error of checkCall() and changes nothing. world.game must exist.
@@ -89,8 +106,5 @@ void stepReferee(WorldState& world, const Snapshot& now, const BallSweep& sweep,
 /// Swaps the goals that the two teams defend, and the directions in which their robots attack.
 /// Robots and ball stay where they are. world.game must exist.
 void swapSides(WorldState& world);
-
-/// Returns whole seconds, rounded up as on a scoreboard.
-int secondsOf(int ticks, double tickRate);
 
 }  // namespace pitchboard::sim

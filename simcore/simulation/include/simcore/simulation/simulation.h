@@ -55,13 +55,13 @@ class Simulation {
   Snapshot snapshot() const;
   /// Returns the events of the last step, in order.
   std::span<const Event> events() const { return m_events; }
-  /// Returns those of them that takeCalled() has not returned before.
+  /// Returns those of them that drainCalled() has not returned before.
   std::span<const Event> untakenEvents() const {
     return std::span(m_events).subspan(m_eventsTaken);
   }
   /// Returns the events of calls by hand since the last step, each once, so that they can be
   /// reported while nothing is played. The next step puts all of them in front of its own events.
-  std::span<const Event> takeCalled();
+  std::span<const Event> drainCalled();
 
   std::size_t robotCount() const { return m_state.robots.size(); }
   /// Returns the index of a robot in state().robots, or nothing.
@@ -95,6 +95,9 @@ class Simulation {
   void reportChanged(Setting setting, std::uint32_t cause);
   /// Adds an event to the next step that says that everything with this cause was undone.
   void reportUndone(std::uint32_t cause);
+  /// Adds events to the next step that say what a GameController's packet has changed in the game
+  /// since `before`, as sim::reportObeyed() does.
+  void reportObeyed(const Game& before, bool joins);
   /// Sets the referee's rules, or removes the referee. The game starts over, and all robots of a
   /// team attack the same goal. Fails with InvalidArgument for rules out of range or more than two
   /// teams, and then nothing has changed.
@@ -115,7 +118,7 @@ class Simulation {
   std::unique_ptr<PhysicsModel> m_model;
   std::vector<Event> m_events;
   std::vector<Event> m_called;                       // made by calls since the last step
-  std::size_t m_eventsTaken = 0, m_calledTaken = 0;  // how many of each takeCalled() has returned
+  std::size_t m_eventsTaken = 0, m_calledTaken = 0;  // how many of each drainCalled() has returned
   Placements m_placements;
   Snapshot m_seen;  // what the referee sees, after the bodies have moved
 };

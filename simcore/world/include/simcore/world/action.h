@@ -4,8 +4,6 @@
 // What control does for each code of <simcore/world/action_codes.h>. Speeds are the published ones,
 // in centimetres and degrees per frame of 1/60 s. Constant data; any thread.
 
-#include <span>
-
 #include <simcore/world/action_codes.h>
 
 namespace pitchboard::sim {
@@ -26,8 +24,6 @@ struct Action : ActionInfo {
   KickRule kick;
   bool inPublishedModel = true;  ///< the published simulator knows the code
 };
-
-std::span<const Action> actionTable();
 
 /// Returns the entry of a code, or null if it is unknown.
 const Action* findAction(int code);

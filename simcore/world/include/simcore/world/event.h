@@ -29,7 +29,8 @@ enum class EventKind : std::uint8_t {
   PenaltyOver,
   FinalWhistle,
   SettingChanged,  ///< a Setting was changed by hand
-  Undone           ///< the effects of a call or change by hand were undone
+  Undone,          ///< the effects of a call or change by hand were undone
+  CoinToss         ///< a coin decided the shoot-out
 };
 
 /// What a user can change while a match goes on.
@@ -37,8 +38,8 @@ enum class Setting : std::uint8_t { Noise, Physics, Rules, ScoreAndClock };
 
 /// `robot` is 0 if no robot is concerned. `value` depends on the kind: the side of a goal or
 /// corrected score (0 left, 1 right), the code of a kick or unknown action, the PlayState, the
-/// number of the half, the GamePhase, the SetPlay, the PenaltyKind, the Setting, or the cause that
-/// Undone refers to.
+/// number of the half, the GamePhase, the SetPlay, the PenaltyKind, the Setting, the cause that
+/// Undone refers to, or the index of the team that won the toss.
 struct Event {
   EventKind kind = EventKind::Goal;
   std::uint64_t tick = 0;

@@ -41,6 +41,8 @@ struct FieldSpec {
   double penaltyMarkDistance = 1.8;  ///< from the goal line
   double centreCircleDiameter = 1.5;
   double lineWidth = 0.05;
+  double markDiameter = 0.0;  ///< of the penalty and centre marks, if they are discs; 0 = crosses
+  double cornerArcRadius = 0.0;  ///< to the outer edge; 0 = none
   double ballRadius = 0.09;
   double ballMass = 0.2;      ///< kg, unless the scenario says otherwise
   double robotRadius = 0.13;  ///< for robots whose model names none

@@ -19,6 +19,8 @@ struct FieldLines {
   std::vector<Box> goals;     ///< the ground of each goal, behind the goal line
   double circleRadius = 0.0;  ///< of the middle of the centre circle's line; 0 = no circle
   std::vector<Point> marks;   ///< the penalty marks; empty if the field has none
+  double markRadius = 0.0;    ///< of these and the centre mark, if they are discs; 0 = crosses
+  double arcRadius = 0.0;     ///< of the middle of a corner arc's line; 0 = no arcs
 };
 
 /// Returns the shapes of a field. `lineWidth` may be wider than that of the field, so that thin

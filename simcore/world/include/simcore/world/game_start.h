@@ -4,17 +4,19 @@
 // Describes the situation in which a match starts: state, clock, score, set play, penalties and
 // cards. It holds only what differs from the normal start of a match by the same rules; an empty
 // optional means "as the rules and the state imply". Scenario files have it under "game"
-// (docs/scenarios.md). Seconds of simulated time, metres. Plain values; any thread.
+// (docs/scenarios.md). startGame() makes a Game of it, and gameStartOf() describes a Game; it is
+// none itself, because who writes a file names robots and colours, and leaves out what follows from
+// rules that may change. Seconds of simulated time, metres. Plain values; any thread.
 
 #include <array>
 #include <map>
 #include <optional>
 #include <vector>
 
+#include <base/game.h>
 #include <base/geometry.h>
 #include <base/ids.h>
-#include <simcore/world/game_state.h>
-#include <simcore/world/team_color.h>
+#include <base/team_color.h>
 
 namespace pitchboard::sim {
 

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <string>
 
+#include <base/game.h>
+
 namespace pitchboard::sim {
 
 /// The league and year whose GameController the state machine follows (docs/referee.md).
@@ -21,6 +23,10 @@ constexpr RefereeStyle lastOf(RefereeStyle) {
   return RefereeStyle::HumanoidSoccer2026;
 }
 
+constexpr League leagueOf(RefereeStyle style) {
+  return style == RefereeStyle::HumanoidSoccer2026 ? League::HumanoidSoccer : League::Humanoid;
+}
+
 /// What a style implies and no rule can change.
 struct RefereeConduct {
   bool replacesBall;         ///< a ball that is out is put back and is in play at once
@@ -29,11 +35,12 @@ struct RefereeConduct {
   bool countsBelowZero;      ///< the countdown of the break continues below zero
   bool penaltiesCountInSet;  ///< the times of penalties count down in SET
   bool waitsAtHalfway;       ///< removed robots return near the halfway line
+  int suddenDeathShots;      ///< of each team; then a coin decides. 0: until one is ahead
 };
 constexpr RefereeConduct conductOf(RefereeStyle style) {
-  constexpr RefereeConduct all[] = {{true, true, false, false, true, true},
-                                    {false, true, false, false, true, false},
-                                    {false, false, true, true, false, false}};
+  constexpr RefereeConduct all[] = {{true, true, false, false, true, true, 0},
+                                    {false, true, false, false, true, false, 0},
+                                    {false, false, true, true, false, false, 3}};
   return all[static_cast<std::size_t>(style)];
 }
 

@@ -15,15 +15,19 @@
 //                             there is one
 //   repeats(vector, index)    may be missing. Returns true if this element equals the one before it
 //                             and must not be visited
-//   label(v)                  may be missing: values that are shown but do not affect the match, so
-//                             that the hash leaves them out
+//   label(v, form)            may be missing: values that are shown but do not affect the match, so
+//                             that the hash leaves them out. Saved states have them since `form`
 
+#include <cstdint>
 #include <type_traits>
 
 #include <simcore/world/world_state.h>
 
 namespace pitchboard::sim {
 namespace state_values {
+
+// Forms of saved states (robotlink/sessions/session/src/state_codec.cpp).
+inline constexpr std::uint64_t form7 = 7, form8 = 8;
 
 template <class Visitor, class... Values>
 void all(Visitor& visitor, Values&... values) {
@@ -36,6 +40,10 @@ void field(Field& f, Visitor& v) {
       f.goalPostRadius, f.goalAreaLength, f.goalAreaWidth, f.penaltyAreaLength, f.penaltyAreaWidth,
       f.penaltyMarkDistance, f.centreCircleDiameter, f.lineWidth, f.ballRadius, f.ballMass,
       f.robotRadius);
+  if constexpr (requires { v.label(f.markDiameter, form8); }) {
+    v.label(f.markDiameter, form8);
+    v.label(f.cornerArcRadius, form8);
+  }
 }
 
 template <class Noise, class Visitor>
@@ -67,10 +75,10 @@ void robotModel(Model& m, Visitor& v) {
       m.footWidth, m.kickTime, m.kickContact, m.radius, m.mass, m.fallImpulse, m.getUpFront,
       m.getUpBack, m.headSpeed, m.panLimit, m.fieldOfView, m.visionRange, m.cameraForward,
       m.cameraHeight, m.fromCamera);
-  if constexpr (requires { v.label(m.batteryFull); }) {
-    v.label(m.batteryFull);
-    v.label(m.batteryLow);
-    v.label(m.batteryEmpty);
+  if constexpr (requires { v.label(m.batteryFull, form7); }) {
+    v.label(m.batteryFull, form7);
+    v.label(m.batteryLow, form7);
+    v.label(m.batteryEmpty, form7);
   }
   noise(m.noise, v);
 }
@@ -153,7 +161,7 @@ void visitValues(World& world, Visitor& v) {
     visitRefereeRules(*s.referee, [&v](auto&... values) { state_values::all(v, values...); });
     visitTeamSettings(s, v);
   }
-  if (v.present(world.game)) visitGame(*world.game, v);
+  if (v.present(world.game)) visitGame(*world.game, world.refereeMemory, v);
 }
 
 }  // namespace pitchboard::sim

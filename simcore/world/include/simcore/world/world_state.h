@@ -11,16 +11,17 @@
 #include <variant>
 #include <vector>
 
+#include <base/game.h>
 #include <base/geometry.h>
 #include <base/ids.h>
+#include <base/team_color.h>
 #include <simcore/world/field.h>
-#include <simcore/world/game_state.h>
 #include <simcore/world/noise.h>
 #include <simcore/world/published_state.h>
+#include <simcore/world/referee_memory.h>
 #include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
 #include <simcore/world/robot_model.h>
-#include <simcore/world/team_color.h>
 
 namespace pitchboard::sim {
 
@@ -97,7 +98,8 @@ struct WorldState {
   std::vector<RobotModel> models;  ///< model of each robot
   std::vector<RobotStatistics> statistics;
   std::variant<RigidBodyState, PublishedState> physics;
-  std::optional<GameState> game;  ///< present exactly if settings.referee is
+  std::optional<Game> game;  ///< present exactly if settings.referee is
+  RefereeMemory refereeMemory;
   bool operator==(const WorldState&) const = default;
 };
 

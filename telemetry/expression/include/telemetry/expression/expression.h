@@ -4,8 +4,10 @@
 // An arithmetic expression over variables, such as `hypot(B1.TRUE_X - 2, B1.TRUE_Y) * 100`. The
 // library muParser parses and evaluates it. It knows + - * / ^, comparisons, && || ?:, the
 // functions of muParser (sin, cos, atan2, sqrt, abs, min, max, ...) and ours (!, hypot, deg, rad,
-// wrap(angle, turn)), pi, and t, the time in s. Variables are written `GROUP.NAME`, or
-// `{GROUP/NAME}` for names with other characters. An object may be used by one thread at a time.
+// wrap(angle, turn), known), pi, and t, the time in s. Variables are written `GROUP.NAME`, or
+// `{GROUP/NAME}` for names with other characters. NaN is an unknown value: every operator and every
+// function of one is NaN, except known() and the branch of ?: that is not taken (docs/plots.md). An
+// object may be used by one thread at a time.
 
 #include <memory>
 #include <span>
@@ -28,7 +30,7 @@ class Expression {
   /// Returns the variables as `GROUP/NAME`, in the order in which they first appear.
   const std::vector<std::string>& variables() const;
   /// Computes the value at `time` (s) from `values`, which are in the order of variables(). Returns
-  /// NaN if it cannot be computed.
+  /// NaN if it is unknown or cannot be computed.
   double evaluate(double time, std::span<const double> values);
 
  private:

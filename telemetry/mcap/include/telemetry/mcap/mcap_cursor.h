@@ -24,11 +24,12 @@ class McapCursor {
   const McapChannel& channel() const { return m_channel; }
   const McapMessage& message() const { return m_message; }
   bool damaged() const { return m_damaged; }
-  std::size_t offset() const { return m_at; }  ///< position of the next record in the body
+  std::size_t start() const { return m_start; }  ///< position of the record that next() returned
+  std::size_t offset() const { return m_at; }    ///< position of the next record in the body
 
  private:
   std::string_view m_body;
-  std::size_t m_at = 0;
+  std::size_t m_start = 0, m_at = 0;
   bool m_damaged = false;
   McapSchema m_schema;
   McapChannel m_channel;

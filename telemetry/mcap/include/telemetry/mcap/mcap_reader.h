@@ -39,6 +39,12 @@ struct McapContents {
   /// True if the file has the record that ends its data. False: the recording was cut off, or its
   /// end is damaged.
   bool ended = false;
+  /// True if the file has the end that the format asks for and nothing in it is damaged, with or
+  /// without a summary, which other programs need not write.
+  bool whole = false;
+  /// True if it has no end yet because a program is still writing it. What was written when it was
+  /// opened is shown.
+  bool growing = false;
   std::vector<std::string> problems;  ///< sentences: what is wrong and where; at most 100
   /// The parts that were left out by the scan; they are not repeated in `problems`.
   std::vector<McapLoss> losses;
@@ -69,6 +75,11 @@ class McapReader {
   /// Unpacks a chunk into `body`, whose memory is reused. Fails with ParseError and the offset if
   /// the chunk is damaged, with Unsupported if its compression is unknown.
   Result<void> readChunk(const McapChunkInfo& chunk, std::string& body) const;
+  /// The same, without large messages of channels for which `isWanted` returns false, if the chunk
+  /// is not compressed and has an index: their bytes are then not read, and no checksum is checked.
+  Result<void> readChunk(const McapChunkInfo& chunk,
+                         const std::function<bool(std::uint16_t)>& isWanted,
+                         std::string& body) const;
   Result<std::string> readAttachment(const McapAttachmentInfo& attachment) const;
   Result<McapMap> readMetadata(const McapMetadataInfo& metadata) const;
 

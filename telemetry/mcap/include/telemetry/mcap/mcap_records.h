@@ -67,7 +67,7 @@ struct McapChunkInfo {
   std::uint64_t offset = 0;          ///< position of the record in the file
   std::uint64_t length = 0;          ///< length of the record, including its header of 9 bytes
   std::uint64_t start = 0, end = 0;  ///< first and last log time; both 0 without messages
-  std::string compression;           ///< "zstd", "" (none), or one that this program cannot read
+  std::string compression;  ///< "zstd", "lz4", "" (none), or one that this program cannot read
   std::uint64_t compressedSize = 0, uncompressedSize = 0;
   std::vector<std::uint16_t> channels;  ///< channels that have messages here; empty if unknown
   /// True for messages that stand in the file outside of chunks, without a checksum.
@@ -100,6 +100,7 @@ struct McapStatistics {
   std::uint64_t messages = 0;
   std::uint64_t start = 0, end = 0;  ///< log times; 0 without messages
   std::map<std::uint16_t, std::uint64_t> perChannel;
+  std::uint32_t attachments = 0, metadata = 0, chunks = 0;  ///< as the summary says; else 0
 };
 
 }  // namespace pitchboard::telemetry

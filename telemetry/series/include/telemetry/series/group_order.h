@@ -6,18 +6,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <vector>
 
-#include <base/robot_key.h>
 #include <telemetry/series/series_types.h>
 
 namespace pitchboard::telemetry {
 
-/// Stores in the attribute "order" where a group of this robot is listed.
-void setOrder(GroupInfo& group, const RobotOrder& order);
-/// Returns what setOrder() stored; nothing for other groups, and in sessions from before 0.12.
-std::optional<RobotOrder> orderOf(const GroupInfo& group);
 /// Compares two groups: groups without an order come first, then the robots in their order, each
 /// robot before its further groups.
 bool isListedBefore(const GroupInfo& group, const GroupInfo& other);

@@ -4,7 +4,7 @@
 // The interface that takes rows: the series store, a session file, or both. Rows are values; the
 // implementation says which threads may call it.
 
-#include <string_view>
+#include <span>
 
 #include <telemetry/series/series_types.h>
 
@@ -14,13 +14,14 @@ namespace pitchboard::telemetry {
 class RowSink {
  public:
   virtual ~RowSink() = default;
-  /// Registers a group and returns its id. A group with the same name and columns is the same
-  /// group. Further Float64 columns may be added at the end; the id can change then.
+  /// Registers a group and returns its id. A group that is known already (isSameGroup()) continues,
+  /// with the name and facts of `info`, also if its columns are others now; the id can change
+  /// then. Rows have the columns of the last call.
   virtual GroupId addGroup(const GroupInfo& info) = 0;
-  /// Continues a group under another name, with its old rows if the sink can do that. Columns may
-  /// be added as in addGroup(). If a group of the new name exists, it is continued instead.
-  virtual GroupId renameGroup(std::string_view /*from*/, const GroupInfo& to) {
-    return addGroup(to);
+  /// Gives known groups other names and facts. Their columns stay. Groups may exchange their
+  /// names; a sink that is read by other threads changes all of them at once.
+  virtual void describeGroups(std::span<const GroupInfo> groups) {
+    for (const GroupInfo& group : groups) addGroup(group);
   }
   /// Adds a row. The views in `row` need to be valid only during the call.
   virtual void append(GroupId group, const RowView& row) = 0;

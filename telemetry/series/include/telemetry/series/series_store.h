@@ -9,12 +9,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include <base/result.h>
 #include <telemetry/series/row_sink.h>
 #include <telemetry/series/series_types.h>
 
@@ -99,15 +102,22 @@ class SeriesStore : public RowSink {
 
   // Writing. Any thread, but the rows of one group must come from one thread at a time. If the
   // memory budget is exceeded, the chunk whose last row is the oldest is dropped first.
-  /// Continues an existing group with the same name and columns. Further Float64 columns may be
-  /// added at the end; they are gaps in earlier rows. With other columns, the group starts empty
-  /// under a new id.
+  /// Registers a group, or continues a known one (isSameGroup()). Its columns may be others than
+  /// before: the group keeps those that it had, and rows that do not have a column are gaps there
+  /// (mergedColumns() in column_merge.h). Ids and indices of columns stay valid.
   GroupId addGroup(const GroupInfo& info) override;
-  GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
+  void describeGroups(std::span<const GroupInfo> groups) override;
   /// Appends a row. Rows must come in order of time. A time before the last one means that the
   /// source was put back, so rows at and after the new time are dropped first. A row of an unknown
-  /// group, of another width, or with a time that is not finite is refused and counted.
+  /// group, of another width than the last addGroup() said, or with a time that is not finite is
+  /// ignored.
   void append(GroupId group, const RowView& row) override;
+  /// Sets who is told of new rows. `listener` is called on the writing thread with the first row
+  /// after this call, and then with the first after each call of heard(); it must return at once.
+  /// Set it before rows are appended.
+  void setListener(std::function<void()> listener);
+  /// Requests the next call of the listener. Any thread.
+  void heard() const;
   /// Drops all rows; the groups stay.
   void clear();
   /// Drops all rows later than this, because their source continues from there.
@@ -120,18 +130,19 @@ class SeriesStore : public RowSink {
   /// Increases when groups were added; lists of groups then have to be read again.
   std::uint64_t groupsRevision() const;
   std::size_t groups() const;
-  /// Returns a view of a group; null for an unknown id. A group that was replaced by one with other
-  /// columns stays empty; findGroup() returns the new one.
+  /// Returns a view of a group; null for an unknown id.
   std::shared_ptr<const GroupView> view(GroupId group) const;
+  /// Returns the groups that a typed name means (robot_names.h); fails with the names there are.
+  Result<std::vector<GroupId>> groupsNamed(std::string_view name) const;
+  /// Returns the first of them; nothing if there is none.
   std::optional<GroupId> findGroup(std::string_view name) const;
-  /// Finds a column. A renamed group is also found by its former names, unless another group has
-  /// them now.
+  /// Returns the present name of each group, by id, all from the same instant.
+  std::vector<std::string> groupNames() const;
   std::optional<SeriesId> find(std::string_view group, std::string_view column) const;
   /// Returns the times of the oldest and the newest row of all groups.
   std::optional<TimeRange> range() const;
   /// Returns the memory of all rows, without dropped chunks that a view still keeps alive.
   std::size_t memoryBytes() const;
-  std::uint64_t refusedRows() const;
   void setMemoryBudget(std::size_t bytes);
   /// Makes all views read rows from `pages` (<telemetry/series/series_pages.h>) instead of this
   /// store. The groups must have been added before, and no row may be appended.

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// A summary of rows: minimum, maximum and last value of every 256 rows, for every column. Session
-// files store it beside their rows, so that a curve over a whole day is drawn without reading the
-// day. It is for drawing only, in single precision. Times are seconds of the session. Plain values;
-// any thread.
+// A summary of rows: minimum, maximum and last value of every 256 rows, or of fewer before a
+// silence, for every column. Session files store it beside their rows, so that a curve over a whole
+// day is drawn without reading the day. It is for drawing only, in single precision. Times are
+// seconds of the session. Plain values; any thread.
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include <telemetry/series/losable.h>
 #include <telemetry/series/series_types.h>
 
 namespace pitchboard::telemetry {
 
 /// Up to 64 consecutive buckets of 256 rows, stored by column.
 struct SummaryPart {
-  static constexpr std::uint32_t usualRows = 256;   ///< rows of a bucket
-  static constexpr std::uint32_t mostBuckets = 64;  ///< buckets of a part
+  static constexpr std::uint32_t defaultRows = 256;  ///< rows of a bucket
+  static constexpr std::uint32_t maxBuckets = 64;    ///< buckets of a part
+  /// s; a longer silence ends a bucket, so that no curve is drawn across it.
+  static constexpr double maxSilence = 10.0;
   struct Column {
     /// A value per bucket, or a single one if all are the same. NaN if there is no number.
     std::vector<float> min, max, last;
@@ -49,19 +52,17 @@ class SummaryBuilder {
   std::optional<SummaryPart> add(double time, const RowView& row);
   /// Returns the rest; nothing if no row was added since the last part.
   std::optional<SummaryPart> finish();
+  /// Begins a new bucket, because rows of the group go elsewhere for a while. Returns the part if
+  /// it is full now.
+  std::optional<SummaryPart> closeBucket();
 
  private:
   struct Extremes {
     float min, max, last;
   };
-  void closeBucket();
   SummaryPart take();
 
-  std::vector<ColumnType> m_types;
-  struct Losable {
-    std::size_t column, flag;  // words of a row
-    std::uint32_t lost;
-  };
+  std::vector<Slot> m_slots;
   std::vector<Losable> m_losable;
   std::vector<Extremes> m_now;
   std::uint32_t m_rows = 0;

@@ -7,9 +7,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <telemetry/series/robot_facts.h>
 
 namespace pitchboard::telemetry {
 
@@ -29,7 +32,7 @@ enum class ColumnKind : std::uint8_t {
 
 /// A condition on another column of the same group, or on the column itself.
 struct LostWhen {
-  std::string column;  ///< a 32-bit column
+  std::string column;
   double value = 0.0;  ///< nothing is seen while the column has this value
   bool operator==(const LostWhen&) const = default;
 };
@@ -44,21 +47,37 @@ struct ColumnInfo {
   /// For a Float64 column: a power of two to which session files round its values, which are then
   /// stored in single precision. 0 keeps every bit.
   double resolution = 0.0;
-  /// For a Float32 column: when its value is old or was never set. If any of these holds, views
-  /// show a gap, while rows keep the value. For example, VISION_BALL_DIST is old while VISION_LOST
-  /// is 1, and was never set while it is 0. Empty if the value is always current.
+  /// For a Float32 or Float64 column: when its value is old or was never set. If any of these
+  /// holds, views show a gap, while rows keep the value. For example, VISION_BALL_DIST is old while
+  /// VISION_LOST is 1, and was never set while it is 0. Empty if the value is always current.
   std::vector<LostWhen> lost = {};
+  bool isWhole = false;  ///< a Float64 column of whole numbers (mergedColumns()); not in files
   bool operator==(const ColumnInfo&) const = default;
 };
 
-/// A robot, or "match". The 32-bit columns come before the Float64 columns.
+/// A robot, or "match". Whoever makes rows lists the 32-bit columns before the Float64 columns. In
+/// memory their order can be any other (column_merge.h).
 struct GroupInfo {
-  std::string name;  ///< "B1", "match"; unique in a source
+  std::string name;  ///< "B1", "match"; unique in a source at any one time
   std::vector<ColumnInfo> columns;
-  /// Further facts: "robot" (number of its blackboard), "team", "number" (on the shirt), ...
-  std::map<std::string, std::string> attributes;
+  std::optional<RobotFacts> robot = {};  ///< the robot of the rows, as it is known now
+  std::optional<MatchFacts> match = {};  ///< of "match" in a simulated match
+  /// Identifies the group for as long as its source exists, while its name and the facts may
+  /// change. Empty: the name identifies it.
+  std::string id = {};
   bool operator==(const GroupInfo&) const = default;
 };
+
+/// Returns the facts about the group's robot, which are all unknown if it has none.
+inline const RobotFacts& factsOf(const GroupInfo& group) {
+  static const RobotFacts none;
+  return group.robot ? *group.robot : none;
+}
+
+/// Returns whether both describe the same group of one source.
+inline bool isSameGroup(const GroupInfo& a, const GroupInfo& b) {
+  return a.id.empty() && b.id.empty() ? a.name == b.name : a.id == b.id;
+}
 
 using GroupId = std::uint32_t;
 

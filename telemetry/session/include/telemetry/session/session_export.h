@@ -30,15 +30,17 @@ Result<ExportFormat> exportFormat(std::string_view name);
 
 /// How CsvEven fills times between rows. A row counts for at most 10 s; after that there is a gap.
 struct Resampling {
-  static constexpr double longestHold = 10.0;  ///< s
-  static constexpr double mostPerSecond = 10'000.0;
+  static constexpr double maxHold = 10.0;  ///< s
+  static constexpr double maxPerSecond = 10'000.0;
   double rate = 10.0;        ///< lines per second, above 0
   bool interpolate = false;  ///< linearly between two rows; codes and flags are always held
 };
 
+class SessionWriter;
+
 struct ExportSelection {
   TimeRange range{-1e18, 1e18};        ///< s, both ends included
-  std::vector<std::string> robots;     ///< names of groups; all if empty
+  std::vector<std::string> robots;     ///< names as for groupsNamed(); all if empty
   std::vector<std::string> variables;  ///< names, with * for any letters; all if empty
   bool messages = true;                ///< also events, log and datagrams (JsonLines and Mcap)
   bool clock = false;                  ///< CSV: a column with the time of day (UTC)
@@ -48,6 +50,10 @@ struct ExportSelection {
   std::function<bool(SessionStream, std::string& json)> change{};
   /// Mcap: JSON messages to write before all others, at the beginning of the range.
   std::vector<std::pair<SessionStream, std::string>> opening{};
+  /// Mcap: called before the messages of each time (s), and at the end with the time of the last
+  /// one; may add groups, rows and events of its own up to that time. Return false to stop the
+  /// export, which then fails with Conflict.
+  std::function<bool(SessionWriter&, double time)> beside{};
 };
 
 struct ExportReport {

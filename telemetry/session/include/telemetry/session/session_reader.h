@@ -4,8 +4,10 @@
 // Reads a session file: groups, the rows of a moment or a range, events and other messages. Files
 // that are truncated, damaged, from a later version or from another program open as far as they are
 // understood; notes() says what was left out. Times are seconds of the session: those of the
-// source, except that they keep increasing where the source was put back (SessionWriter). One
-// thread at a time.
+// source, except that they keep increasing where the source was put back (SessionWriter). Rows and
+// messages are visited in the order of their times (those of equal times in the order of the file),
+// whatever order another program gave them. Chunks that overlap in time are in memory together, up
+// to 256 MiB; beyond that they are read several times. One thread at a time.
 
 #include <array>
 #include <functional>
@@ -23,12 +25,11 @@
 
 namespace pitchboard::telemetry {
 
-/// A group of the session. It is one group even if columns were added during the recording; earlier
-/// rows have gaps there.
+/// A group of the session. It is one group even if its columns changed during the recording; rows
+/// that do not have a column have a gap there (mergedColumns() in column_merge.h).
 struct SessionGroup {
   GroupInfo info;
   std::uint64_t rows = 0;
-  std::uint16_t channel = 0;              ///< with all of its columns
   std::vector<std::uint16_t> channels{};  ///< of the file, in order
 };
 
@@ -38,6 +39,7 @@ struct SessionRow {
   double time = 0.0;
   std::vector<std::uint32_t> words;
   std::vector<double> values;
+  std::uint16_t channel = 0;  ///< of the file
   RowView view() const { return {time, words, values}; }
 };
 
@@ -53,7 +55,7 @@ struct SessionItem {
 
 class SessionReader {
  public:
-  /// Opens a file. Fails as McapReader::open() does.
+  /// Opens a file, and the notes beside it (session_notes.h). Fails as McapReader::open() does.
   static Result<SessionReader> open(const std::string& path, const McapReaderOptions& options = {});
   static Result<SessionReader> openBytes(std::string bytes, const McapReaderOptions& options = {});
   SessionReader(SessionReader&&) noexcept;
@@ -63,34 +65,43 @@ class SessionReader {
   const SessionInfo& info() const;
   /// Returns false if another program wrote the file, or if its beginning is lost.
   bool ours() const;
-  /// Returns false if the recording was cut off or its end is damaged.
+  /// Returns true if another program wrote the file and nothing in it has Pitchboard's format.
+  bool isForeign() const;
+  /// Returns false if the recording was cut off, if its end is damaged, or while it isGrowing().
   bool complete() const;
+  /// Returns true if the file was still being recorded when it was opened. What was written by then
+  /// is shown.
+  bool isGrowing() const;
+  /// Returns the channels of the file that are not in Pitchboard's format.
+  std::span<const std::uint16_t> otherChannels() const;
   /// Returns sentences that say what is wrong or was left out. More can come while reading.
   const std::vector<std::string>& notes() const;
   /// Reads every part that was not read yet and checks it, so that notes() and isDamaged() know all
   /// damage. `progress` as in walk().
   bool check(const std::function<bool(double)>& progress = {}) const;
-  /// Returns whether a part was found that cannot be read.
+  /// Returns whether a damaged part was found.
   bool isDamaged() const;
   /// Returns the parts that cannot be read, as far as they were found.
   const std::vector<McapLoss>& losses() const;
 
   /// Returns the groups; the index is the GroupId.
   std::span<const SessionGroup> groups() const;
+  /// Returns the groups that a typed name means (robot_names.h); fails with the names there are.
+  Result<std::vector<GroupId>> groupsNamed(std::string_view name) const;
   /// Returns the times of the first and the last row or message.
   std::optional<TimeRange> range() const;
   std::uint64_t count(SessionStream stream) const;
 
   /// Reads the last row of each group at or before `time`. The memory of `out` is reused.
   void rowsAt(double time, std::vector<SessionRow>& out) const;
-  /// Visits the rows of these groups (all if empty) in the closed range, in the order of recording,
-  /// until `visit` returns false. The view is valid during the call.
+  /// Visits the rows of these groups (all if empty) in the closed range until `visit` returns
+  /// false. The view is valid during the call.
   void rows(TimeRange range, std::span<const GroupId> groups,
             const std::function<bool(GroupId, const RowView&)>& visit) const;
   /// Visits the messages of a stream in the closed range until `visit` returns false.
   void messages(SessionStream stream, TimeRange range,
                 const std::function<bool(double time, std::string_view json)>& visit) const;
-  /// The same for several streams, in the order of recording.
+  /// The same for several streams.
   void messages(
       std::span<const SessionStream> streams, TimeRange range,
       const std::function<bool(SessionStream, double time, std::string_view json)>& visit) const;
@@ -111,8 +122,11 @@ class SessionReader {
   /// The range from −1e18 to 1e18 includes messages with impossible times.
   bool walkFile(TimeRange range, const std::function<bool(const McapMessage&)>& visit,
                 const std::function<bool(double)>& progress = {}) const;
-  /// Returns all valid events.
+  /// Returns all valid events in order of time, with the bookmarks of the notes beside the file. Of
+  /// bookmarks at the same time only the last counts: it is the one with the note.
   std::vector<SessionEvent> events() const;
+  /// Returns the bookmarks of the notes beside the file, in order of time.
+  const std::vector<SessionEvent>& addedNotes() const;
 
   /// Reads an attachment. Fails with NotFound, or with ParseError if it is damaged.
   Result<std::string> attachment(std::string_view name) const;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <base/file_target.h>
 #include <base/result.h>
 
 namespace pitchboard::telemetry {
@@ -30,6 +31,7 @@ struct RepairReport {
 /// the new file is removed. Fails with Conflict if `to` exists or is `from` itself, with ParseError
 /// if nothing can be read, and with the system's reason if reading or writing fails.
 Result<RepairReport> repairSession(const std::string& from, const std::string& to,
-                                   const std::function<bool(double)>& progress = {});
+                                   const std::function<bool(double)>& progress = {},
+                                   IfExists ifExists = IfExists::Refuse);
 
 }  // namespace pitchboard::telemetry

@@ -46,13 +46,12 @@ inline constexpr std::size_t sessionStreamCount = 7;
 
 /// What is known of an event besides time and kind, for programs. Empty or 0 if it does not apply.
 struct EventFacts {
-  int robot = 0;                 ///< number on its shirt; up to 0.8 that of its blackboard
-  std::optional<int> robotTeam;  ///< its RobotKey::team; nothing up to 0.8
-  int sender = 0;                ///< its RobotKey::sender
-  std::string side;              ///< "left" or "right"
-  int team = 0;                  ///< the team's number in the GameController
-  std::string colour;            ///< the team's colour: "blue"
-  std::optional<int> value;      ///< its meaning depends on the kind
+  RobotUid robot;            ///< 0 before 0.24: then only its name says which robot it is
+  std::string side;          ///< "left" or "right"
+  int team = 0;              ///< the team's number in the GameController
+  std::string colour;        ///< the team's colour: "blue"
+  std::string teamName;      ///< the team's name; may be empty
+  std::optional<int> value;  ///< its meaning depends on the kind
   std::optional<std::pair<int, int>> score;  ///< left, right
   std::string process;                       ///< "decision"
   std::string detail;

@@ -29,8 +29,9 @@ struct SessionWriterOptions {
   Duration chunkInterval = std::chrono::milliseconds(800);  ///< or at this age
   int level = 7;  ///< compression level of zstd; 7 is a tenth smaller than 3
   bool waitWhenFull =
-      false;         ///< append() waits instead of dropping, for runs faster than real time
-  bool sync = true;  ///< flush each chunk to the disk, not only to the kernel
+      false;             ///< append() waits instead of dropping, for runs faster than real time
+  bool sync = true;      ///< flush each chunk to the disk, not only to the kernel
+  bool replace = false;  ///< an existing file, unless it is still being recorded
   /// Returns the free bytes of the disk; if it is empty, the file system is asked. Called on the
   /// writing thread.
   std::function<std::optional<std::uint64_t>()> freeSpace;
@@ -68,10 +69,12 @@ class SessionWriter : public RowSink {
   SessionWriter(const SessionWriter&) = delete;
   SessionWriter& operator=(const SessionWriter&) = delete;
 
-  /// Registers a group. The same name and columns give the same id; the first attributes are kept.
+  /// Registers a group; the same group (isSameGroup()) has the same id. Another name and other
+  /// facts are written beside the rows, which stay in their channel; a group without
+  /// GroupInfo::id keeps its first ones. Rows with other columns go into another channel. While
+  /// columns keep coming, rows wait in memory for up to 8 s, so that there need not be a channel
+  /// for each of them; new labels are written from time to time, and by finish().
   GroupId addGroup(const GroupInfo& info) override;
-  /// Continues a group under another name, in a new channel that names the old one.
-  GroupId renameGroup(std::string_view from, const GroupInfo& to) override;
   void append(GroupId group, const RowView& row) override;
   void append(const SessionEvent& event);
   void append(const LogLine& line);

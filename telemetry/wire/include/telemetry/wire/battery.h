@@ -18,7 +18,7 @@ struct BatteryLimits {
 
 /// The limits of the published robot's battery of five cells, also the default of Live: low below
 /// 16.0 V, empty at 14.65 V, full at 19.15 V.
-inline constexpr BatteryLimits usualBattery{5, 3.83, 3.20, 2.93};
+inline constexpr BatteryLimits defaultBattery{5, 3.83, 3.20, 2.93};
 
 struct Battery {
   double volts = 0.0;  ///< 0 if the robot sends only how full it is

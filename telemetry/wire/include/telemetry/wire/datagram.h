@@ -28,7 +28,21 @@ struct Address {
   std::uint32_t value = 0;
   auto operator<=>(const Address&) const = default;
   std::string text() const;
+  /// Returns whether programs of this computer send from it, so that it does not tell robots apart.
+  bool isLoopback() const { return value >> 24 == 127; }
 };
+
+/// Simulated robots and referees on this computer send from this address of the loopback network.
+/// The receiver thus recognizes each of their datagrams, whichever program sent it, while the bytes
+/// stay those of a real robot.
+inline constexpr Address simulatedAddress{0x7f504201};  // 127.80.66.1
+constexpr bool isSimulated(Address sender) {
+  return sender == simulatedAddress;
+}
+/// Returns whether this is an address of the loopback network, 127.0.0.0/8.
+constexpr bool isLoopback(Address address) {
+  return address.value >> 24U == 127U;
+}
 
 /// Reads "192.168.0.7". Fails with InvalidArgument for anything else, host names included.
 Result<Address> parseAddress(std::string_view text);

@@ -18,6 +18,11 @@
 
 namespace pitchboard::telemetry {
 
+/// A robot sends under another key from now on.
+struct Renaming {
+  RobotKey from, to;
+};
+
 /// The layers of one robot, sorted by name. The layers themselves never change.
 struct RobotDrawings {
   RobotKey robot;  ///< key of the first sender of that number
@@ -40,7 +45,8 @@ class DrawingStore {
   /// Returns why the last drawing was refused; empty if none was.
   const std::string& lastProblem() const { return m_lastProblem; }
   void clear() { *this = {}; }
-  void rename(const std::vector<Renaming>& renamings) { pitchboard::rename(m_robots, renamings); }
+  /// The layers follow their robots to other keys, all at the same time.
+  void rename(const std::vector<Renaming>& renamings);
   /// Removes the layers of the robots for which `which` returns true.
   void forget(const std::function<bool(const RobotKey& robot)>& which) {
     std::erase_if(m_robots, [&](const auto& robot) { return which(robot.first); });

@@ -25,9 +25,9 @@ struct DrawingLimits {
   static constexpr std::size_t points = 4000;         ///< per layer
   static constexpr std::size_t robotPoints = 20'000;  ///< per robot, in all layers
   static constexpr std::size_t robots = 64;
-  static constexpr double farthest = 1000.0;   ///< m, largest coordinate or radius
-  static constexpr double longestLife = 10.0;  ///< s
-  static constexpr double widest = 20.0;       ///< pixels
+  static constexpr double farthest = 1000.0;  ///< m, largest coordinate or radius
+  static constexpr double maxLife = 10.0;     ///< s
+  static constexpr double widest = 20.0;      ///< pixels
 };
 
 /// The frame of a layer's coordinates.
@@ -50,11 +50,11 @@ struct DrawingShape {
 };
 
 struct DrawingLayer {
-  static constexpr double usualLife = 1.0;
+  static constexpr double defaultLife = 1.0;
   std::string name;
   DrawingFrame frame = DrawingFrame::Field;
-  double life = usualLife;  ///< s after which it disappears unless it is drawn again
-  bool adds = false;        ///< add to the layer instead of replacing it
+  double life = defaultLife;  ///< s after which it disappears unless it is drawn again
+  bool adds = false;          ///< add to the layer instead of replacing it
   std::vector<DrawingShape> shapes;
   std::size_t points() const;
   bool operator==(const DrawingLayer&) const = default;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Packets of the GameController, the referee's program: one value for every version of the Humanoid
-// League, the Standard Platform League and the Humanoid Soccer League since 2013. The layouts are
-// data (src/gamecontroller_layouts.cpp); a new version is a new row there. Plain values and pure
+// Packets of the GameController, the referee's program, of every version of the Humanoid League,
+// the Standard Platform League and the Humanoid Soccer League since 2013. RefereeState has the
+// fields of a packet as they are sent, so that every byte can be shown, compared and sent again;
+// what they mean is a Game, which gameOf() reads from them. The layouts are data
+// (src/gamecontroller_layouts.cpp); a new version is a new row there. Plain values and pure
 // functions; any thread.
 
 #include <array>
@@ -15,18 +17,12 @@
 #include <string_view>
 #include <variant>
 
+#include <base/game.h>
 #include <base/result.h>
 
 namespace pitchboard::telemetry {
 
-/// The league of a packet, which decides what its codes of penalties and set plays mean.
-enum class League : std::uint8_t {
-  Humanoid,          ///< HL: v7, v8, v9, v11 (592 bytes), v12 (640 and 688)
-  StandardPlatform,  ///< SPL: v10, v11 (58), v12 (54) ... v18
-  HumanoidSoccer     ///< HSL since 2026: v19, v20
-};
-
-/// A slot of a team, with codes as sent. penaltyName() and penaltyLabel() translate them.
+/// A slot of a team, with codes as sent.
 struct RefereePlayer {
   int number = 0;  ///< number of the slot, from 1
   int penalty = 0;
@@ -41,7 +37,7 @@ struct RefereePlayer {
 struct RefereeTeam {
   static constexpr std::size_t maxPlayers = 20;
   int number = 0;  ///< identifies the team; its place in the packet is its side
-  int colour = 0;  ///< see colourLabel()
+  int colour = 0;  ///< see colourOf()
   int score = 0;
   std::optional<int> goalColour;   ///< v7
   std::optional<int> penaltyShot;  ///< penalty shots taken
@@ -71,7 +67,7 @@ struct RefereeState {
   int size = 0;  ///< size of the packet in bytes
   League league = League::Humanoid;
   int playersPerTeam = 0;
-  int state = 0;       ///< 0 INITIAL ... see stateName()
+  int state = 0;       ///< 0 INITIAL ... see playStateOf()
   int firstHalf = 0;   ///< 1 in the first half
   int kickOffRaw = 0;  ///< as sent: a colour in v7 and v8, then a team number
   int secsRemaining = 0;
@@ -124,29 +120,21 @@ using RefereePacket = std::variant<RefereeState, RobotReply, ForwardedReply, Tru
 Result<RefereePacket> decodeReferee(std::span<const std::byte> datagram);
 Result<RefereePacket> decodeReferee(std::string_view datagram);
 
-/// Returns a name such as "PLAYING", or "UNKNOWN" for other codes.
-std::string_view stateName(int state);
-/// Returns the name of the HL's secondary state, such as "PENALTYSHOOT" or "CORNER_KICK".
-std::string_view secStateName(int secState);
-/// Returns "ROUNDROBIN", "PLAYOFF" or "DROPIN".
-std::string_view gameTypeName(int gameType);
-/// Returns "normal", "penalty shoot-out", "overtime" or "timeout".
-std::string_view gamePhaseLabel(int gamePhase);
-/// Returns the name of a set play in JSON, such as "pushing free kick". The same code means
-/// different things in the SPL and the HSL.
-std::string_view setPlayName(League league, int setPlay);
-/// Returns the text of a set play for people, such as "corner kick"; for the HL of a secondary
-/// state.
-std::string_view setPlayLabel(League league, int setPlay);
-/// Returns "blue", "red", ..., or "unknown".
-std::string_view colourLabel(int colour);
+/// Returns what a packet says of the game. Its first team defends the left goal; times are whole
+/// seconds; a robot's shirt is the number of its slot.
+Game gameOf(const RefereeState& packet);
+
+// Codes of packets and what they mean; Unknown for codes that a version does not have.
+PlayState playStateOf(int code);
+TeamColor colourOf(int code);
+PenaltyKind penaltyOf(const RefereeState& packet, int code);
+// And back: the nearest that the version of a packet has. A set play that it cannot tell is 0.
+int colourCode(TeamColor colour);
+int penaltyCode(const RefereeState& packet, PenaltyKind penalty);
+/// Of secState in the Humanoid League, of setPlay in the others.
+int setPlayCode(const RefereeState& packet, SetPlay play);
 /// Returns a name such as "HL_PICKUP_OR_INCAPABLE" or "NONE"; "UNKNOWN" if this version has no such
 /// code.
-std::string_view penaltyName(const RefereeState& state, int penalty);
-/// Returns the text of a player's penalty, such as "pickup or incapable"; "" for none, "unknown
-/// penalty" for other codes. A player with a red card is always "sent off".
-std::string_view penaltyLabel(const RefereeState& state, const RefereePlayer& player);
-/// Returns whether a slot has no player on the field; displays leave it out.
-bool isSubstitute(const RefereeState& state, const RefereePlayer& player);
+std::string_view penaltyName(const RefereeState& packet, int code);
 
 }  // namespace pitchboard::telemetry

@@ -39,9 +39,10 @@ struct LinkHealth {
   std::uint64_t bytes = 0;       ///< payload of all messages
   std::uint64_t errorCount = 0;  ///< messages with errors
   std::uint64_t recoveries = 0;  ///< how often it came back after a timeout
-  double rate = 0.0;             ///< messages per second
-  double jitter = 0.0;           ///< s
-  std::optional<double> loss;    ///< 0 to 1, if the profile has a sequence number
+  Duration offline{};          ///< how long these outages lasted together, from message to message
+  double rate = 0.0;           ///< messages per second
+  double jitter = 0.0;         ///< s
+  std::optional<double> loss;  ///< 0 to 1, if the profile has a sequence number
   std::uint64_t lost = 0;
   std::uint64_t duplicates = 0;  ///< messages that arrived twice
   std::uint64_t late = 0;        ///< messages that arrived after a newer one; they change no value

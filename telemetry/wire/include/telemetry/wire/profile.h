@@ -81,7 +81,7 @@ enum class FieldMeaning : std::uint8_t {
   BallFieldX,
   BallFieldY,  ///< in the frame of x and y
   BallSeen,    ///< 0 or less: the other values of the ball mean nothing
-  BallAge,     ///< less than 0: never seen
+  BallAge,     ///< less than 0: never seen; more than 2 s: no longer seen
   Charge       ///< how full the battery is
 };
 inline constexpr std::size_t fieldMeaningCount = 25;

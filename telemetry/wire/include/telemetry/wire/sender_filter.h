@@ -3,6 +3,7 @@
 
 // A list of allowed senders: addresses and networks. Any thread may read it once it is complete.
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,8 @@ class SenderFilter {
   Result<void> add(std::string_view text);
   bool allows(Address address) const;
   bool empty() const { return m_ranges.empty(); }
+  /// Returns what add() reads back: "192.168.0.7", "192.168.0.0/24".
+  std::vector<std::string> texts() const;
 
  private:
   struct Range {

@@ -17,6 +17,7 @@
 #include <base/robot_key.h>
 #include <telemetry/wire/arrival_stats.h>
 #include <telemetry/wire/datagram.h>
+#include <telemetry/wire/drawing_store.h>
 #include <telemetry/wire/link_health.h>
 #include <telemetry/wire/process_filter.h>
 #include <telemetry/wire/sender_filter.h>
@@ -30,10 +31,10 @@ struct MonitorOptions {
   /// Numbers 1 to 32 of each team always fit; higher ones and second senders share further slots.
   static constexpr int ordinaryRobots = 32;
   static constexpr std::size_t otherRobots = 32;
-  static constexpr std::size_t mostRobots(std::size_t teams) {
+  static constexpr std::size_t maxRobots(std::size_t teams) {
     return std::max(teams, std::size_t{1}) * ordinaryRobots + otherRobots;
   }
-  std::size_t mostRobots() const { return mostRobots(teams.size()); }
+  std::size_t maxRobots() const { return maxRobots(teams.size()); }
   Duration timeout = std::chrono::seconds(10);
   /// The same bytes from the same robot within this time are one message that was delivered twice;
   /// later they may come from a robot that stands still.
@@ -88,7 +89,7 @@ struct TeamStatus {
   std::vector<SenderStatus> senders;  ///< the first 64 addresses
   std::uint64_t datagrams = 0;
   std::uint64_t refusedByFilter = 0;  ///< datagrams from senders that are not allowed
-  std::uint64_t refusedRobots = 0;    ///< messages of robots beyond MonitorOptions::mostRobots()
+  std::uint64_t refusedRobots = 0;    ///< messages of robots beyond MonitorOptions::maxRobots()
   ErrorTally errors;                  ///< errors of all senders together
 };
 
@@ -117,14 +118,18 @@ class TeamMonitor {
   const DecodedText& decoded() const { return m_decoded; }
   /// Returns TeamRouter::placeOf(), or nothing if the sender is not allowed.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
-  std::optional<int> placeOf(Address sender) const;
+  /// Returns the RobotKey::team of a robot with this number that sends other than messages from
+  /// this address. Of the teams that allow the sender it is one whose robot sends messages from
+  /// there (unless programs of this computer share the address), then `ours`, then the first.
+  /// Nothing if the sender is not allowed.
+  std::optional<int> teamOf(Address sender, int number, int ours) const;
 
   /// Changes the profile for the next messages; link health and counters are kept.
   void setProfile(Profile profile);
   /// Robots of setups that remain keep their team. The others have no team until a message assigns
   /// them to one, and are forgotten if they go offline before.
   void setOptions(MonitorOptions options);
-  /// Returns the robots whose keys the last take() or setOptions() has changed.
+  /// Returns the robots whose keys the last take(), setOptions() or forget() has changed.
   const std::vector<Renaming>& renamings() const { return m_renamings; }
   const TextDecoder& decoder() const { return *m_decoder; }
   const MonitorOptions& options() const { return m_options; }

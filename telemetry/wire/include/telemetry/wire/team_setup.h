@@ -20,13 +20,13 @@ namespace pitchboard::telemetry {
 
 struct TeamSetup {
   static constexpr std::size_t maxRobots = 64;
-  static constexpr std::size_t mostTeams = 16;  ///< teams that can be received at one time
-  std::string name;                             ///< may be empty; see title()
-  int number = 0;                               ///< number in the GameController; 0 if unknown
-  std::string colour;                           ///< as colourLabel(); empty: Live chooses one
-  int firstPort = 0, lastPort = 0;              ///< 0: Live's ports
-  std::vector<std::string> senders;             ///< allowed addresses and networks; empty: all
-  std::string profileName = "published";        ///< a built-in profile, or a file beside the setup
+  static constexpr std::size_t maxTeams = 16;  ///< teams that can be received at one time
+  std::string name;                            ///< may be empty; see title()
+  int number = 0;                              ///< number in the GameController; 0 if unknown
+  std::string colour;                          ///< the name of a TeamColor; empty: Live chooses one
+  int firstPort = 0, lastPort = 0;             ///< 0: Live's ports
+  std::vector<std::string> senders;            ///< allowed addresses and networks; empty: all
+  std::string profileName = "published";       ///< a built-in profile, or a file beside the setup
   Profile profile = publishedProfile();
   std::string model;                  ///< robot model: sets when a battery is low; may be empty
   bool attacksLeft = false;           ///< the team attacks the left goal
@@ -51,9 +51,13 @@ Result<TeamSetup> parseTeamSetup(std::string_view json, const std::string& file,
 std::string teamSetupText(const TeamSetup& setup);
 
 /// Returns the ports to receive: those of the teams, Live's (livePorts()) for teams that name none,
-/// and the referee's. Fails as livePorts() does, and with InvalidArgument for more than mostTeams.
+/// and the referee's. Fails as livePorts() does, and with InvalidArgument for more than maxTeams.
 Result<std::vector<std::uint16_t>> teamPorts(const std::vector<TeamSetup>& teams, int base,
                                              int count, int referee);
+
+/// RobotKey::team of simulated robots that are received as if they were real. They are no team of
+/// the setups, so that their numbers cannot be mistaken for those of real robots.
+inline constexpr int simulatedTeam = static_cast<int>(TeamSetup::maxTeams) + 1;
 
 /// Returns the setup of a team by its index (RobotKey::team), or null if it has none.
 inline const TeamSetup* setupAt(int place, const std::vector<TeamSetup>& teams) {
@@ -64,7 +68,8 @@ inline const TeamSetup* setupAt(int place, const std::vector<TeamSetup>& teams) 
 
 class TeamRouter {
  public:
-  /// Without teams, every datagram is read with the one profile.
+  /// Without teams, every datagram is read with the one profile. Datagrams of simulated robots are
+  /// read with the published one.
   TeamRouter(const Profile& profile, std::vector<TeamSetup> teams, const Surroundings& where);
 
   /// Decodes a datagram as its team writes it: the first team whose ports, senders and format fit.
@@ -73,8 +78,8 @@ class TeamRouter {
   /// Returns the RobotKey::team of a datagram, by where it came from and the team number `team`
   /// that it may name. Nothing if it belongs to no team.
   std::optional<int> placeOf(const DatagramView& datagram, std::optional<int> team) const;
-  /// Returns the same for robots at this address, whatever port they send to.
-  std::optional<int> placeOf(Address sender) const;
+  /// Returns the RobotKey::team of each team that allows this sender, whatever port it sends to.
+  std::vector<int> placesOf(Address sender) const;
 
  private:
   struct Team {
@@ -86,6 +91,7 @@ class TeamRouter {
 
   std::vector<Team> m_teams;
   std::shared_ptr<const TextDecoder> m_only;
+  std::shared_ptr<const TextDecoder> m_simulated;
 };
 
 }  // namespace pitchboard::telemetry

@@ -82,5 +82,7 @@ class ErrorTally {
 std::size_t sequenceLength(std::string_view text);
 /// Returns the beginning of any bytes as one printable line of UTF-8, other bytes as \xNN.
 std::string printable(std::string_view bytes, std::size_t limit = ErrorTally::sampleBytes);
+/// Adds it to `out`.
+void addPrintable(std::string& out, std::string_view bytes, std::size_t limit);
 
 }  // namespace pitchboard::telemetry

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct ReceiverOptions {
   std::shared_ptr<const LiveClock> clock{};
   Duration retry =
       std::chrono::seconds(3);  ///< time between attempts to bind a port that is in use
+  /// The program that listens on a port first keeps the datagrams that are sent to this computer
+  /// alone. A later one gets broadcasts only (if `bind` is 0.0.0.0) until the first one ends.
+  /// Otherwise the later program takes them away.
+  bool yieldsToFirst = false;
 };
 
 /// Returns the robots' ports base + 1 to base + count, and the referee's. Fails with
@@ -37,6 +42,12 @@ struct PortStatus {
   std::uint16_t port = 0;
   bool bound = false;
   std::string problem;  ///< why it is not bound; empty if it is
+  /// Another program was first: only broadcasts arrive (ReceiverOptions::yieldsToFirst).
+  bool broadcastsOnly = false;
+  /// Other programs that receive on this port, "pitchboard (process 4711)"; empty: none. Only known
+  /// with ReceiverOptions::yieldsToFirst.
+  std::string others;
+  bool othersTakeAll = false;  ///< they also receive what is sent to this computer alone
   std::uint64_t datagrams = 0;
   std::uint64_t bytes = 0;
   std::uint64_t kernelDrops = 0;  ///< datagrams lost because the kernel's buffer was full
@@ -49,6 +60,13 @@ struct ReceiverStatus {
   std::uint64_t kernelDrops() const;
   std::uint64_t datagrams() const;
 };
+
+/// Returns "1241–1256" and "3838" for the ports 1241 to 1256 and 3838.
+std::vector<std::string> portRanges(std::vector<std::uint16_t> ports);
+/// Returns sentences about the ports that other programs receive, too, and who gets what; empty if
+/// there are none. `ignored` is a port where sharing does no harm, because everything that arrives
+/// there is broadcast.
+std::string sharedPortsText(const ReceiverStatus& status, std::optional<std::uint16_t> ignored);
 
 /// The thread runs from construction to destruction. take(), status() and stop() may be called from
 /// any thread.

@@ -18,6 +18,9 @@ class UdpSender {
  public:
   /// Broadcast addresses are allowed.
   static Result<UdpSender> to(Address address);
+  /// For simulated robots and referees: sends from `simulatedAddress` if the receiver is on the
+  /// loopback network. Datagrams to other addresses can't be marked.
+  static Result<UdpSender> simulatedTo(Address address);
 
   /// Sends to a port (1 to 65535). Returns whether the system accepted it; if not, errno tells why.
   /// Whether anybody receives it is unknown.

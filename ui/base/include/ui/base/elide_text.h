@@ -14,4 +14,8 @@ namespace pitchboard::ui {
 /// is left. Short names (B1, 2nd) count as numbers. `width` is in pixels.
 QString elideText(const QFontMetricsF& metrics, const QString& text, double width);
 
+/// Turns "VISION_BALL_DIST B1" into "BALL_DIST B1": of the name of a variable, the part that it
+/// shares with others goes first, and the middle of what is left only after that.
+QString elideName(const QFontMetricsF& metrics, const QString& name, double width);
+
 }  // namespace pitchboard::ui

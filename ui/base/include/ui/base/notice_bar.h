@@ -2,8 +2,9 @@
 #pragma once
 
 // A bar that tells or asks the user something without blocking anything. It shows the newest
-// notice; older ones wait behind it, and equal notices are shown once. Text wraps into two lines
-// at most; buttons keep their size and move below the text if there is little room. UI thread only.
+// notice; older ones wait behind it, where "1 more" leads to, and equal notices are shown once.
+// Text wraps into two lines at most; buttons keep their size and move below the text if there is
+// little room. UI thread only.
 
 #include <QFrame>
 #include <QString>
@@ -11,8 +12,8 @@
 #include <vector>
 
 class QBoxLayout;
-class QLabel;
 class QTimer;
+class QToolButton;
 
 namespace pitchboard::ui {
 
@@ -65,10 +66,11 @@ class NoticeBar : public QFrame {
   void arrange(int width);
   void present();
   void dismiss();
+  void showNext();
 
   std::vector<Notice> m_notices;  // the first is shown
   Text* m_text;
-  QLabel* m_more;
+  QToolButton* m_more;
   QBoxLayout* m_row;          // the text, and beside or below it:
   QBoxLayout* m_side;         // how many more there are, and
   QBoxLayout* m_buttons;      // the buttons

@@ -4,18 +4,21 @@
 // Formats robots and numbers for the screen. Pure functions; any thread.
 
 #include <QString>
+#include <optional>
 #include <string_view>
 
 #include <robotlink/frame/robot_frame.h>
+#include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
 
 /// Returns the letter of the team and the number on the shirt: "B1".
 QString robotName(const sim::RobotIdentity& identity);
 QString robotName(const link::RobotFrame& robot);
-/// Returns whether the GROUP/COLUMN `saved` in a file means this variable, even if the robot had
-/// another name then, or the column another name in version 0.8.
-bool isVariable(const QString& saved, const QString& variable);
+/// Finds the variable that `GROUP/COLUMN` in a layout or in settings means: the robot may have had
+/// this name earlier (SeriesStore::groupsNamed()), and the column in version 0.8.
+std::optional<telemetry::SeriesId> findVariable(const telemetry::SeriesStore& rows,
+                                                const QString& name);
 /// Returns "walk forward, slow", or "action 42" for an unknown code.
 QString actionText(int code);
 /// Turns "corner kick" into "Corner kick".

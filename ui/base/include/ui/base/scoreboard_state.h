@@ -17,7 +17,8 @@ struct ScoreboardState {
   QString leftName, rightName;     ///< ROBOFEI; without a name BLUE, without a colour TEAM 12
   QColor leftColour, rightColour;  ///< invalid: no coloured square
   int left = 0, right = 0;
-  QString clock = QStringLiteral("00:00");
+  QString clock = QStringLiteral("00:00");  ///< minutes and seconds, also beyond an hour
+  QString period;       ///< with a referee: 1st, 2nd, ET 1, ET 2, PEN; empty: unknown
   QString state;        ///< PLAYING, PAUSED, STOPPED, FINISHED, NO REFEREE
   QStringList shorter;  ///< the state with less and less beside it, for little room
   QString penalties;    ///< robots and seconds, such as "B2 24 · R3 5"; empty: none

@@ -11,7 +11,7 @@
 #include <QPalette>
 #include <QString>
 
-#include <simcore/world/team_color.h>
+#include <base/team_color.h>
 
 class QApplication;
 class QWidget;

@@ -2,8 +2,8 @@
 #pragma once
 
 // The Experiments dock: choose or edit an experiment, play it on other threads, view tables, paths
-// on the field, distributions and differences, and open any run in Replay, or two runs compared. UI
-// thread only.
+// on the field, distributions and differences, and open any run in Replay, or two runs compared. An
+// experiment that was cancelled, or whose studio ended, can be continued. UI thread only.
 
 class QWidget;
 
@@ -11,6 +11,7 @@ namespace pitchboard::ui {
 
 class ComparedSession;
 class ReplayController;
+class RunningWork;
 class SituationTests;
 
 /// All must outlive the dock.
@@ -18,6 +19,7 @@ struct ExperimentsDockParts {
   ReplayController* replay = nullptr;
   ComparedSession* compared = nullptr;
   SituationTests* tests = nullptr;  ///< tests that it saves are offered and played here
+  RunningWork* work = nullptr;      ///< is told of experiments that run
 };
 QWidget* makeExperimentsDock(const ExperimentsDockParts& parts, QWidget* parent);
 

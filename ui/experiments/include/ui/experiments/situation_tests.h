@@ -13,22 +13,22 @@ namespace pitchboard::ui {
 
 class MatchController;
 class ReplayController;
-class SourceSwitch;
+class ShownMoment;
 
 class SituationTests : public QObject {
   Q_OBJECT
  public:
   /// All must outlive this object; `settings` may be null.
   struct Parts {
-    const SourceSwitch* source = nullptr;
+    const ShownMoment* shown = nullptr;
     const MatchController* match = nullptr;
     const ReplayController* replay = nullptr;
     QSettings* settings = nullptr;  ///< keeps the folder of the last test
   };
   SituationTests(const Parts& parts, QWidget* window);
 
-  /// Returns whether there is a robot in the moment shown.
-  bool isPossible() const;
+  /// Returns why no test can be made of the moment shown; empty if one can.
+  QString whyNot() const;
   /// Opens a dialog about the current moment, while the source continues behind it.
   void ask();
 

@@ -2,24 +2,19 @@
 #pragma once
 
 // The panel Explore: starts and cancels an exploration, and shows what it found: goal
-// probabilities, the time whose heat map is on the field, and the actions of a robot. UI thread
-// only.
+// probabilities, and the time whose heat map is on the field. UI thread only.
 
 class QWidget;
 
 namespace pitchboard::ui {
 
 class Explorer;
-class RobotSelection;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// Everything must outlive the dock.
 struct ExploreDockParts {
   Explorer* explorer = nullptr;
-  SourceSwitch* source = nullptr;
-  RobotSelection* selection = nullptr;
-  const Timeline* timeline = nullptr;  ///< how times are written
+  ShownMoment* shown = nullptr;
 };
 QWidget* makeExploreDock(const ExploreDockParts& parts, QWidget* parent);
 

@@ -2,8 +2,8 @@
 #pragma once
 
 // Explores the moment that the studio shows, of a simulated, live or recorded match, on a thread of
-// its own: what may follow, and which action of a chosen robot is best. It only reads frames;
-// nothing is sent to a robot. UI thread only; owned by the window.
+// its own: where the ball may go and how likely goals are. It only reads frames; nothing is sent
+// to a robot. UI thread only; owned by the window.
 
 #include <QObject>
 #include <array>
@@ -11,24 +11,23 @@
 #include <memory>
 #include <optional>
 
+#include <base/team_color.h>
 #include <robotlink/explore/explore.h>
-#include <simcore/world/team_color.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
-#include <ui/sources/forecast.h>
+#include <ui/sources/ball_heat.h>
 
 namespace pitchboard::ui {
 
 class MatchController;
 class ReplayController;
-class SourceSwitch;
+class ShownMoment;
 
 /// What an exploration has found so far.
 struct ExploredMoment {
   double time = 0.0;  ///< s of the source
   link::ExploreStart start;
   link::ExploreResult result;                     ///< empty until the first round is played
-  std::optional<RobotKey> robot;                  ///< whose actions were compared
   std::array<std::optional<TeamColor>, 2> teams;  ///< that defend the left and right goal
 };
 
@@ -40,17 +39,13 @@ class Explorer : public QObject {
 
   /// All must outlive the explorer.
   struct Parts {
-    SourceSwitch* source = nullptr;
+    ShownMoment* shown = nullptr;
     const MatchController* match = nullptr;
     const ReplayController* replay = nullptr;
   };
   Explorer(const Parts& parts, QObject* parent);
   /// Cancels, and waits for the thread.
   ~Explorer() override;
-
-  /// Chooses the robot whose actions the next exploration compares; empty: no actions are compared.
-  void setRobot(std::optional<RobotKey> robot);
-  std::optional<RobotKey> robot() const { return m_robot; }
 
   /// Explores the moment shown, also while looking back. A running exploration is cancelled.
   void start();
@@ -71,9 +66,9 @@ class Explorer : public QObject {
   int second() const { return m_second; }
 
  signals:
-  void changed();  ///< the robot, progress, result, problem or second
-  /// The field has to show this forecast; null: none.
-  void forecastChanged(const pitchboard::ui::ForecastPtr& forecast);
+  void changed();  ///< progress, result, problem or second
+  /// The field has to show this heat map; null: none.
+  void heatChanged(const pitchboard::ui::BallHeatPtr& heat);
 
  private:
   void take(const std::shared_ptr<std::atomic<bool>>& job, double progress,
@@ -82,7 +77,6 @@ class Explorer : public QObject {
   void notify();
 
   Parts m_parts;
-  std::optional<RobotKey> m_robot;
   std::unique_ptr<ExploredMoment> m_found;
   QString m_problem;
   double m_progress = 0.0;

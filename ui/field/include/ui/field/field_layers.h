@@ -23,8 +23,6 @@ enum class FieldLayer {
   StarVars,
   Particles,
   PlannedPath,
-  AdvisorHeat,
-  AdvisorCandidates,
   Exploration,
   Drawings
 };
@@ -49,9 +47,6 @@ inline constexpr std::array fieldLayers{
     FieldLayerInfo{FieldLayer::StarVars, "starVars", "StarVars sectors", false},
     FieldLayerInfo{FieldLayer::Particles, "particles", "Localization particles", false},
     FieldLayerInfo{FieldLayer::PlannedPath, "plannedPath", "Planned path", false},
-    FieldLayerInfo{FieldLayer::AdvisorHeat, "advisorHeat", "Ball in 5 s", false},
-    FieldLayerInfo{FieldLayer::AdvisorCandidates, "advisorCandidates", "Advisor's candidates",
-                   true},
     FieldLayerInfo{FieldLayer::Exploration, "exploration", "Exploration", true},
     FieldLayerInfo{FieldLayer::Drawings, "drawings", "Drawings", true},
 };

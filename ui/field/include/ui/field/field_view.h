@@ -12,8 +12,8 @@
 
 #include <base/robot_key.h>
 #include <ui/field/field_layers.h>
+#include <ui/sources/ball_heat.h>
 #include <ui/sources/field_pictures.h>
-#include <ui/sources/forecast.h>
 #include <ui/sources/match_controller.h>
 
 class QAction;
@@ -46,13 +46,13 @@ class FieldView : public QWidget, public FieldPictures {
   /// Draws a moment of another session on top; null: none.
   void showCompared(const FramePtr& frame);
   /// What may follow a moment, drawn in the layer Exploration; null: nothing.
-  void showForecast(const ForecastPtr& forecast);
+  void showHeat(const BallHeatPtr& heat);
 
-  std::vector<RobotKey> selection() const;
-  void select(const std::vector<RobotKey>& ids);
+  std::vector<RobotUid> selection() const;
+  void select(const std::vector<RobotUid>& ids);
   /// Keeps this robot in the middle of the view; empty: stops following.
-  void follow(std::optional<RobotKey> id);
-  std::optional<RobotKey> followed() const;
+  void follow(std::optional<RobotUid> id);
+  std::optional<RobotUid> followed() const;
   const FieldActions& actions() const;
   /// Fills the menu bar's menu about the selected robots, all robots and the ball.
   void fillRobotsMenu(QMenu* menu);
@@ -68,22 +68,21 @@ class FieldView : public QWidget, public FieldPictures {
   /// Carries out a key of the published simulator (field_keys.h). Returns false if it is none.
   bool takePublishedKey(const QKeyEvent& event);
   /// Opens the editor for the robot's pose.
-  void editPose(RobotKey id);
+  void editPose(RobotUid id);
   /// Whether a robot is drawn in this part of the canvas (pixels), or at its edge.
   bool hasRobotIn(const QRect& part) const;
   void setFlipped(bool flipped);
-  bool isFlipped() const;
   QSize pictureSize(QSize within) const override;
   QImage picture(QSize size) const override;
   QByteArray svgPicture(QSize size) const override;
   std::unique_ptr<FramePainter> framePainter() const override;
 
  signals:
-  void selectionChanged(const std::vector<pitchboard::RobotKey>& ids);
-  void followedChanged(std::optional<pitchboard::RobotKey> id);
+  void selectionChanged(const std::vector<pitchboard::RobotUid>& ids);
+  void followedChanged(std::optional<pitchboard::RobotUid> id);
   /// Position of the cursor on the field in metres; not valid once the cursor has left the field.
   void cursorMoved(QPointF metres, bool valid);
-  void blackboardRequested(pitchboard::RobotKey id);
+  void blackboardRequested(pitchboard::RobotUid id);
   void saveScenarioRequested();
   void loadMatchRequested();  ///< F2 of the published keys
   void resetRequested();      ///< F3

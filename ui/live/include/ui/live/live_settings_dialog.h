@@ -6,20 +6,17 @@
 
 #include <QDialog>
 
+#include <ui/base/option_form.h>
 #include <ui/sources/live_settings.h>
 
 class QCheckBox;
-class QComboBox;
-class QFormLayout;
+class QGroupBox;
 class QLabel;
 class QLineEdit;
-class QSpinBox;
 
 namespace pitchboard::ui {
 
 class LiveController;
-class NetworkChooser;
-class NumberBox;
 class TeamsPage;
 
 class LiveSettingsDialog : public QDialog {
@@ -32,13 +29,9 @@ class LiveSettingsDialog : public QDialog {
  private:
   QWidget* makeGeneral();
   QWidget* makeNetwork();
-  QWidget* makeRobots();
   QWidget* makeReferee();
   QWidget* makeMessages();
-  QSpinBox* addNumber(QFormLayout* form, const char* name, const QString& label, int low, int high,
-                      const QString& tip);
-  NumberBox* addReal(QFormLayout* form, const char* name, const QString& label, double low,
-                     double high, int decimals, const QString& unit, const QString& tip);
+  QGroupBox* makeGroup(const char* name);
   void adopt();
   void showProfile();
   void chooseProfile();
@@ -48,11 +41,7 @@ class LiveSettingsDialog : public QDialog {
 
   LiveController* m_live;
   QSettings* m_settings;
-  NetworkChooser* m_bind;
-  QSpinBox *m_portBase, *m_robots, *m_variablesPortBase, *m_refereePort, *m_ourTeam, *m_cells;
-  QLineEdit *m_senders, *m_refereeSenders;
-  NumberBox *m_timeout, *m_full, *m_low, *m_empty;
-  QComboBox *m_field, *m_colours, *m_refereeVersion;
+  OptionForm<link::LiveOptions> m_options;
   QCheckBox* m_monitor;
   QLineEdit* m_monitorAddress;
   QLabel *m_profileName, *m_problem;

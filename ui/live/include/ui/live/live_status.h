@@ -5,7 +5,9 @@
 
 #include <QString>
 #include <deque>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include <robotlink/live/live_watch.h>
 
@@ -14,8 +16,13 @@ namespace pitchboard::ui {
 struct LiveStatusText {
   QString network;  ///< "UDP 24/s, 0 lost, 0 bad"
   QString referee;  ///< "Referee v12, 2.0/s"
-  QString trouble;  ///< the most urgent problem, shown in red; empty: none
-  QString tip;      ///< all ports and their problems
+  QString trouble;  ///< the newest problem, shown in red, and how many more; empty: none
+  QString tip;      ///< all problems, and all ports
+};
+
+/// Something that goes wrong in Live. `key` stays while it goes on, `text` may change.
+struct LiveTrouble {
+  QString key, text;
 };
 
 /// Measures how fast a counter grows over the last five seconds.
@@ -35,7 +42,11 @@ class LiveStatus {
                         double seconds);
 
  private:
+  /// Returns the newest of these problems; of those that began together, the first.
+  QString newestOf(const std::vector<LiveTrouble>& troubles, double seconds);
+
   RateWindow m_robots, m_referee;
+  std::map<QString, double> m_since;  // when each problem that goes on began, by its key
 };
 
 }  // namespace pitchboard::ui

@@ -9,12 +9,10 @@ class QWidget;
 namespace pitchboard::ui {
 
 class MatchController;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// All arguments must outlive the dock. A click on an entry of the source that is shown goes to its
 /// moment. Entries after the moment shown are pale.
-QWidget* makeLogDock(MatchController* controller, const SourceSwitch* source, Timeline* timeline,
-                     QWidget* parent);
+QWidget* makeLogDock(MatchController* controller, ShownMoment* shown, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -10,12 +10,12 @@ namespace pitchboard::ui {
 
 class MatchController;
 class RobotSelection;
-class SourceSwitch;
+class ShownMoment;
 
 /// All arguments must outlive the dock. While `source` shows the past of the match, the dock shows
 /// the values of that time, disabled. Values of robot models are those of the selected robots, or
 /// of all robots if none is selected.
 QWidget* makeNoiseDock(MatchController* controller, RobotSelection* selection,
-                       const SourceSwitch* source, QWidget* parent);
+                       const ShownMoment* shown, QWidget* parent);
 
 }  // namespace pitchboard::ui

@@ -21,8 +21,12 @@ struct NiceLimits {
   double step = 1.0;
 };
 /// Returns limits at whole steps around [low, high]; a constant value gets room on both sides.
-/// Rounding may add one step to `mostSteps`.
-NiceLimits niceLimits(double low, double high, int mostSteps);
+/// Rounding may add one step to `maxSteps`. Values closer to a limit than `headroom`, a share of
+/// the range, move it that much away, so that the frame of a plot does not hide them.
+NiceLimits niceLimits(double low, double high, int maxSteps, double headroom = 0.0);
+/// Returns a step as niceStep(), but short enough for two of its multiples to lie within the
+/// limits: one number alone says nothing about a scale.
+double labelStep(const ValueLimits& limits, int most);
 /// Returns the decimals needed to tell multiples of `step` apart.
 int decimalsOf(double step);
 /// Returns a value for a legend or table, with about five significant digits.

@@ -35,14 +35,12 @@ class PlotFeed;
 class PlotPage;
 class PlotPane;
 class PlotTarget;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// What the dock shows and changes; all must outlive it.
 struct PlotsContext {
-  SourceSwitch* source = nullptr;
-  LinkedTime* time = nullptr;           ///< visible range, cursor and marks of plots and timeline
-  Timeline* timeline = nullptr;         ///< the moment shown, events; may be null
+  ShownMoment* shown = nullptr;
+  LinkedTime* time = nullptr;           ///< visible range and cursor of plots and timeline
   PlotTarget* plots = nullptr;          ///< requests from other docks; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
   ComparedSession* compared = nullptr;  ///< its curves are drawn as well; may be null
@@ -93,11 +91,11 @@ class PlotsDock : public QWidget {
   void restore();
   void put(const PlotLayout& layout);
   void changed();
-  void follow();
   void compare();
   void scheduleDraw();
   void drawNow();
   void takeRows();
+  void renameGroups(const std::map<QString, QString>& names);
   void save();
   void showWindow();
   void takeWindow();
@@ -116,14 +114,16 @@ class PlotsDock : public QWidget {
   QToolButton* m_window;
   QUndoStack* m_undo;
   PlotLayout m_known;  // what the last command led to
+  /// Names that groups have got since the first command that can be undone.
+  std::vector<std::map<QString, QString>> m_renamings;
   QAction* m_follow;
   QAction* m_marks;
   QAction* m_box;
   std::unique_ptr<Beat::Part> m_draw;
   QTimer m_saveSoon;
   bool m_restoring = false;
-  std::map<SourceKind, double> m_windows;  // s, of the sources that were shown
-  SourceKind m_windowOf{};
+  std::map<const SourceKind*, double> m_windows;  // s, of the sources that were shown
+  const SourceKind* m_windowOf = nullptr;
   quint64 m_drawnGeneration = 0;
   quint64 m_drawnRows = 0;
   std::optional<telemetry::TimeRange> m_drawnData;

@@ -9,9 +9,9 @@ class QWidget;
 namespace pitchboard::ui {
 
 class MatchController;
-class SourceSwitch;
+class ShownMoment;
 
 /// Both must outlive the dock.
-QWidget* makeProcessesDock(MatchController* controller, SourceSwitch* source, QWidget* parent);
+QWidget* makeProcessesDock(MatchController* controller, ShownMoment* shown, QWidget* parent);
 
 }  // namespace pitchboard::ui

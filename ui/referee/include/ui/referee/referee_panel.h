@@ -11,13 +11,11 @@ namespace pitchboard::ui {
 
 class MatchController;
 class RobotSelection;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 struct RefereeContext {
   MatchController* controller;
-  const SourceSwitch* source;
-  Timeline* timeline;
+  ShownMoment* shown;
   const RobotSelection* selection = nullptr;  ///< robots chosen on the field; may be null
 };
 

@@ -6,6 +6,7 @@
 
 #include <QString>
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -22,9 +23,6 @@ struct Lamp {
   bool operator==(const Lamp&) const = default;
 };
 
-/// Stands between what a robot does and what its advisor suggests.
-inline const QString adviceMark = QStringLiteral(" \u2192 ");
-
 enum class TagKind { None, Warning, Error };
 
 /// An additional value on a card, such as "VISION_BALL_DIST", "83.2", "cm".
@@ -37,11 +35,16 @@ struct CardState {
   static constexpr int lampCount = 5;
   static constexpr std::array<char, lampCount> letters{'C', 'V', 'L', 'D', 'I'};
 
-  RobotKey id;
+  RobotUid id;
+  RobotOrder order;  ///< place in lists
   TeamColor team = TeamColor::Blue;
   int number = 0;
   QString name;
+  /// Set if another robot has the same number and colour: the end of its address, or "(2)" for the
+  /// second program with its number. A collapsed card shows it where the name has no room.
+  QString apart;
   QString teamName;  ///< such as "RoboFEI"; may be empty
+  QString address;   ///< from which a live robot sends; may be empty
   QString subtitle;  ///< the robot's name in its team and its behaviour; may be empty
   QString runtime;   ///< the runtime profile if one was chosen
   std::array<Lamp, lampCount> lamps;
@@ -49,8 +52,8 @@ struct CardState {
   QString tagTip;  ///< tool tip that explains the tag in a sentence
   TagKind tagKind = TagKind::None;
   bool tagIsBattery = false;  ///< the tag repeats what the red battery shows
-  QString action;             ///< and what an advisor suggests, after adviceMark
-  QString detail;             ///< simulated: distance walked; live: state of the link
+  QString action;
+  QString detail;  ///< simulated: distance walked; live: state of the link
   QString detailTip;
   bool live = false;                          ///< a live robot
   bool timedOut = false;                      ///< offline: the card is grey
@@ -67,8 +70,12 @@ struct CardState {
 /// Returns the text behind the name on a card: the robot's name in its team, and its behaviour.
 QString subtitleOf(const link::RobotFrame& robot);
 
-/// `detail` is CardState::detail of robots that are not live.
-CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field, const QString& detail);
+/// How often each process of a robot has crashed, by ProcessStatus::id.
+using Crashes = std::map<int, int>;
+
+/// `detail` is CardState::detail of robots that are not live. Crashes beyond `seen` are shown.
+CardState cardOf(const link::RobotFrame& robot, const sim::FieldSpec& field, const QString& detail,
+                 const Crashes& seen = {});
 
 /// Makes cards from successive frames and tracks the age of what they show.
 class CardTracker {
@@ -76,6 +83,8 @@ class CardTracker {
   /// Returns a state for each robot of the frame, in its order. `milliseconds` is from a monotonic
   /// clock.
   std::vector<CardState> update(const link::MatchFrame& frame, qint64 milliseconds);
+  /// Somebody has looked at this card: its crashes so far are not shown any more.
+  void looked(RobotUid robot) { m_seen[robot] = m_crashes[robot]; }
   /// Forgets everything, for another match.
   void reset() { *this = {}; }
 
@@ -84,6 +93,7 @@ class CardTracker {
   std::uint64_t m_serial = 0;
   double m_age = 0.0;     // ms, smoothed
   qint64 m_updated = -1;  // the last time, real ms; none
+  std::map<RobotUid, Crashes> m_crashes, m_seen;
 };
 
 }  // namespace pitchboard::ui

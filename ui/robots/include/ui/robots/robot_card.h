@@ -37,7 +37,6 @@ class RobotCard : public QFrame {
 
  signals:
   void clicked(Qt::KeyboardModifiers modifiers);
-  void collapsedByHand(bool collapsed);
   void menuRequested(const QPoint& globalPosition);
   // The user drags the card within the list, or out of it.
   void dragged(const QPoint& globalPosition);
@@ -70,7 +69,6 @@ class RobotCard : public QFrame {
   QRect voltsRect() const;
   QRect tagRect() const;
   bool showsTag() const;
-  void collapse(bool collapsed);
   QString lampTip(int lamp) const;
   QString headTip() const;
 

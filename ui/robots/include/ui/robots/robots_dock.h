@@ -27,12 +27,12 @@ class LiveController;
 class LiveOverlay;
 class MatchController;
 class RobotSelection;
-class SourceSwitch;
+class ShownMoment;
 
 /// What the dock shows and changes; all must outlive it.
 struct RobotsContext {
   MatchController* controller = nullptr;
-  SourceSwitch* source = nullptr;
+  ShownMoment* shown = nullptr;
   RobotSelection* selection = nullptr;
   LiveOverlay* overlay = nullptr;  ///< cards show the distance to the other source; may be null
   QSettings* settings = nullptr;   ///< the user's; may be null
@@ -47,15 +47,16 @@ class RobotsDock : public QScrollArea {
   QList<RobotCard*> cards() const;
   void setAllCollapsed(bool collapsed);
   /// Moves the card into a window of its own; closing the window puts it back.
-  void floatCard(RobotKey id);
-  QDockWidget* floating(RobotKey id) const;
+  void floatCard(RobotUid id);
+  QDockWidget* floating(RobotUid id) const;
   /// Moves the card before the one with this index in the list.
-  void moveCard(RobotKey id, qsizetype place);
+  void moveCard(RobotUid id, qsizetype place);
   void setParts(const CardParts& parts);
   const CardParts& parts() const { return m_parts; }
   /// Adds the actions for cards to the menu bar.
   void addCardActions(QMenu& menu);
-  /// With at least this many robots, cards are collapsed unless the user expands them.
+  /// With at least this many robots, new cards are collapsed. Those that are there stay as they
+  /// are.
   static constexpr std::size_t many = 9;
   QSize sizeHint() const override;
 
@@ -68,10 +69,10 @@ class RobotsDock : public QScrollArea {
   void showSelection();
   void showCards(const std::vector<CardState>& states);
   RobotCard* makeCard();
-  void rename(const std::vector<Renaming>& renamings);
-  RobotOrder order(const RobotKey& robot) const;
+  void removeCard(RobotUid robot);
+  bool sortCards();
   void arrange();
-  void unfloat(RobotKey id);
+  void unfloat(RobotUid id);
   void follow(RobotCard* card, const QPoint& globalPosition);
   void drop(RobotCard* card, const QPoint& globalPosition);
   void loadParts();
@@ -80,7 +81,6 @@ class RobotsDock : public QScrollArea {
   void addPartActions(QMenu& menu, RobotCard* card);
   void addListActions(QMenu& menu);
   void addForgetting(QMenu& menu, RobotCard* card);
-  void collapseMany(std::size_t robots);
   qsizetype placeAt(RobotCard* card, const QPoint& globalPosition) const;
   void showDropMark(qsizetype place);
 
@@ -89,11 +89,11 @@ class RobotsDock : public QScrollArea {
   QElapsedTimer m_clock;
   std::unique_ptr<Beat::Part> m_refresh;
   CardParts m_parts;
-  std::map<RobotKey, RobotCard*> m_cards;
-  std::map<RobotKey, QDockWidget*> m_floating;
-  std::vector<RobotKey> m_order;  // of all robots ever seen here
-  std::set<RobotKey> m_byHand;    // collapsed or opened by the user
-  bool m_isMany = false;
+  std::map<RobotUid, RobotCard*> m_cards;
+  std::map<RobotUid, QDockWidget*> m_floating;
+  std::map<RobotUid, RobotOrder> m_places;  // in lists, when seen last
+  std::vector<RobotUid> m_order;            // also of robots that are gone, once arranged by hand
+  bool m_isArranged = false;                // by the user
   QFrame* m_dropMark;
   QVBoxLayout* m_column;
   QLabel* m_empty;

@@ -44,7 +44,7 @@ class VideoExport;
 struct ExportSource {
   QString session;                     ///< the file; empty: memory
   std::function<SessionMaker()> make;  ///< writes what is in memory, see SessionRecording
-  QString folder, name;                ///< proposed folder and file name, without suffix
+  QString name;                        ///< proposed file name, without suffix
   /// The groups of the source, to choose from.
   std::vector<telemetry::GroupInfo> groups{};
   std::optional<QDateTime> clock{};  ///< time of day at second 0, if known
@@ -60,8 +60,6 @@ class ExportDialog : public QDialog {
 
   /// Exports in the chosen format; written() or failed() follows. Never overwrites a file.
   void exportTo(const QString& path);
-  /// Sets the program that makes videos; the default is "ffmpeg".
-  void setVideoProgram(const QString& program) { m_program = program; }
   bool isWriting() const { return m_writing; }
   /// Returns the suffix of the chosen format, such as ".csv".
   QString suffix() const;
@@ -77,6 +75,9 @@ class ExportDialog : public QDialog {
   void makeChoices();
   bool takeChoices(telemetry::ExportSelection& selection);
   void ask();
+  /// Returns the picture that the chosen format has, of the moment that is shown now.
+  QByteArray picture() const;
+  void begin(const QString& path, const QByteArray& picture);
   void write(const ExportRequest& request);
   void writeVideo(const ExportRequest& request);
   void writePicture(const QString& path);
@@ -106,10 +107,10 @@ class ExportDialog : public QDialog {
   QPushButton* m_export;
   QToolButton* m_open;
   QToolButton* m_show;
-  QString m_written;  // the last file
-  QString m_program = QStringLiteral("ffmpeg");
+  QString m_written;                        // the last file
   std::unique_ptr<QTemporaryDir> m_memory;  // holds the session that is written from memory
   std::unique_ptr<VideoExport> m_video;
+  QByteArray m_picture;  // of the moment at which the export was asked for
   bool m_writing = false;
   bool m_showingClock = false;
   std::atomic<bool> m_cancelled = false;

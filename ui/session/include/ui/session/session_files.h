@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Opens session files from the menu, by drag and drop, or from the command line. Problems are shown
-// as notices, from which a damaged file can be repaired into a new one. UI thread only.
+// Opens session files from the menu, by drag and drop, or from the command line, also recordings of
+// other programs, which are imported first. Problems are shown as notices, from which a damaged
+// file can be repaired into a new one. UI thread only.
 
 #include <QObject>
 #include <atomic>
@@ -17,15 +18,15 @@ namespace pitchboard::ui {
 
 class MatchController;
 class NoticeBar;
+class RecordingImport;
 class ReplayController;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 class SessionFiles : public QObject {
   Q_OBJECT
  public:
-  SessionFiles(ReplayController* replay, MatchController* controller, SourceSwitch* source,
-               Timeline* timeline, NoticeBar* notices, QWidget* window);
+  SessionFiles(ReplayController* replay, MatchController* controller, ShownMoment* shown,
+               NoticeBar* notices, QWidget* window);
   ~SessionFiles() override;
 
   /// Shows Replay once the file is open.
@@ -35,10 +36,15 @@ class SessionFiles : public QObject {
   QString askForFile(const QString& title);
   /// Repairs the session into a new file beside it, and opens that.
   void repair(const QString& path);
+  bool isRepairing() const { return m_repairs > 0; }
   /// Switches to Simulate and plays a match that starts from the moment shown.
   void simulateFromHere(link::MomentOptions::Poses poses);
   /// In Simulate while looking back: continues the match from the moment shown.
   void continueFromHere();
+
+ signals:
+  /// Another file is shown in place of the session that was open.
+  void replaced();
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -48,13 +54,16 @@ class SessionFiles : public QObject {
   void showTitle();
   static QString shortened(const QStringList& sentences);
   void offerRepair(const QString& sentence);
+  void showImported(const QString& recording, const QString& session, const QStringList& notes);
 
   ReplayController* m_replay;
   MatchController* m_controller;
-  SourceSwitch* m_source;
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   NoticeBar* m_notices;
   QWidget* m_window;
+  RecordingImport* m_import;
+  QString m_before;   // the session that was open when open() was asked for another one
+  int m_repairs = 0;  // that run or wait
   std::atomic<bool> m_cancelled = false;
   UiQueue m_toUi;
   Workers m_worker;

@@ -14,14 +14,12 @@
 namespace pitchboard::ui {
 
 class EventList;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 class AbandonedFuture : public QObject {
   Q_OBJECT
  public:
-  AbandonedFuture(MatchController* match, SourceSwitch* source, Timeline* timeline,
-                  QObject* parent);
+  AbandonedFuture(MatchController* match, ShownMoment* shown, QObject* parent);
 
   /// Returns whether there is one and its match is shown.
   bool isOn() const;
@@ -51,8 +49,7 @@ class AbandonedFuture : public QObject {
   void keepBudget();
 
   MatchController* m_match;
-  SourceSwitch* m_source;
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   EventList* m_events;
   MatchBranch m_left;
   double m_end = 0.0;

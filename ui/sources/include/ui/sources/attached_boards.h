@@ -19,12 +19,12 @@ namespace pitchboard::ui {
 
 class LiveController;
 class MatchController;
-class SourceSwitch;
+class ShownMoment;
 
 class AttachedBoards : public QObject {
  public:
   /// All arguments must outlive this object; `settings` may be null.
-  AttachedBoards(MatchController* match, LiveController* live, SourceSwitch* source,
+  AttachedBoards(MatchController* match, LiveController* live, ShownMoment* shown,
                  QSettings* settings, QObject* parent = nullptr);
   ~AttachedBoards() override;
 
@@ -44,7 +44,7 @@ class AttachedBoards : public QObject {
 
   MatchController* m_match;
   LiveController* m_live;
-  SourceSwitch* m_source;
+  ShownMoment* m_shown;
   QSettings* m_settings;
   std::unique_ptr<link::BoardRowKeeper> m_rows;    // of the open match
   std::unique_ptr<link::AttachedRobots> m_robots;  // beside it; null without a match

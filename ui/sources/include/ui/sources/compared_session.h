@@ -15,12 +15,12 @@ namespace pitchboard::ui {
 
 class EventCollector;
 class EventList;
-class Timeline;
+class ShownMoment;
 
 class ComparedSession : public QObject {
   Q_OBJECT
  public:
-  ComparedSession(Timeline* timeline, QObject* parent);
+  ComparedSession(ShownMoment* shown, QObject* parent);
 
   /// Opens a file; returns immediately. changed() or failed() follows; after a failure the previous
   /// session is still compared.
@@ -63,7 +63,7 @@ class ComparedSession : public QObject {
   void align();
   void showMoment();
 
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   ReplayController m_file;
   EventCollector* m_events;
   double m_offset = 0.0;

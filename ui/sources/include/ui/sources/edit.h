@@ -2,7 +2,8 @@
 #pragma once
 
 // A change by the user that can be undone, in the match or in the plots. All undo commands are of
-// this kind. UI thread only.
+// this kind, and they are pushed after the change has been made: what was refused never gets onto
+// the stack. UI thread only.
 
 #include <QElapsedTimer>
 #include <QString>
@@ -18,8 +19,7 @@ struct Edit {
   std::function<void()> redo, undo;
   /// Edits with the same key within a second become one undo step. Empty: never merged.
   QString mergeKey = {};
-  bool done = false;  ///< already carried out: pushing it does not call `redo`
-  /// Becomes true if nothing of `redo` was carried out; null: cannot happen.
+  /// Becomes true if it was undone and cannot be done again; null: cannot happen.
   std::shared_ptr<const bool> refused = {};
 };
 
@@ -29,7 +29,7 @@ class EditCommand : public QUndoCommand {
     m_age.start();
   }
   void redo() override {
-    if (!std::exchange(m_edit.done, false)) m_edit.redo();
+    if (!std::exchange(m_isNew, false)) m_edit.redo();
   }
   /// The stack deletes a refused command instead of keeping it to be done again.
   void undo() override {
@@ -46,12 +46,14 @@ class EditCommand : public QUndoCommand {
     const Edit& later = static_cast<const EditCommand&>(*other).m_edit;
     if (later.mergeKey != m_edit.mergeKey || m_age.elapsed() > mergeMilliseconds) return false;
     m_edit.redo = later.redo;
+    m_edit.refused = later.refused;
     m_age.restart();
     return true;
   }
 
  private:
   Edit m_edit;
+  bool m_isNew = true;  // the stack calls redo() for what it is given
   QElapsedTimer m_age;
 };
 

@@ -5,7 +5,6 @@
 // value; any thread.
 
 #include <set>
-#include <string>
 
 #include <robotlink/frame/match_event.h>
 
@@ -13,12 +12,12 @@ namespace pitchboard::ui {
 
 struct EventFilter {
   std::set<link::MatchEventKind> hidden;
-  std::set<std::string> robots;  ///< names; empty: all. Does not affect events without a robot
+  std::set<RobotUid> robots;  ///< empty: all. Does not affect events without a robot
 
   /// Returns whether the event has a mark and passes the filter.
   bool shows(const link::MatchEvent& event) const {
     return link::isMarked(event) && !hidden.contains(event.kind) &&
-           (robots.empty() || event.name.empty() || robots.contains(event.name));
+           (robots.empty() || event.robot == RobotUid{} || robots.contains(event.robot));
   }
   bool isOn() const { return !hidden.empty() || !robots.empty(); }
   bool operator==(const EventFilter&) const = default;

@@ -42,9 +42,9 @@ class LiveController : public FrameSource {
   /// Forgets robots, referee and counters, and continues to listen.
   void clear();
   /// Forgets a robot, or one of two programs that send the same number. Its curves are kept.
-  void forget(const RobotKey& robot);
+  void forget(RobotUid robot);
 
-  SourceKind kind() const override { return SourceKind::Live; }
+  const SourceKind& kind() const override { return SourceKind::Live; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_series; }
   QString emptyText() const override;
@@ -76,7 +76,7 @@ class LiveController : public FrameSource {
   std::vector<std::shared_ptr<link::LiveObserver>> m_observers;
   std::unique_ptr<link::LiveWatch> m_watch;
   FramePtr m_frame;
-  std::unique_ptr<Beat::Part> m_news;
+  std::unique_ptr<Beat::Part> m_news, m_rowNews;
   std::size_t m_memoryBudget = std::size_t{1} << 30;
   std::shared_ptr<link::LiveMemory> m_memory;
   std::unique_ptr<link::LiveMoments> m_moments;

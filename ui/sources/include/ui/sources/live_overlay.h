@@ -12,12 +12,12 @@ namespace pitchboard::ui {
 
 class LiveController;
 class MatchController;
-class SourceSwitch;
+class ShownMoment;
 
 class LiveOverlay : public QObject {
   Q_OBJECT
  public:
-  LiveOverlay(MatchController* controller, LiveController* live, SourceSwitch* shown,
+  LiveOverlay(MatchController* controller, LiveController* live, ShownMoment* shown,
               QObject* parent);
   bool isOn() const { return m_on; }
   /// Turning it on also starts Live.
@@ -35,7 +35,7 @@ class LiveOverlay : public QObject {
 
   MatchController* m_controller;
   LiveController* m_live;
-  SourceSwitch* m_shown;
+  ShownMoment* m_shown;
   bool m_on = false;
 };
 

@@ -6,7 +6,7 @@
 
 #include <QString>
 
-#include <robotlink/live/live_watch.h>
+#include <robotlink/live/live_options.h>
 
 class QSettings;
 
@@ -14,22 +14,13 @@ namespace pitchboard::ui {
 
 struct LiveSettings {
   link::LiveOptions options;
-  QString profileFile;     ///< empty: the published profile
-  QString senders;         ///< addresses and networks as typed, separated by commas or spaces
-  QString refereeSenders;  ///< the same for the referee
   QString monitorAddress;  ///< referee to ask; monitor mode itself is off at each start
   QString problem;         ///< why an option could not be read, as a sentence; empty: no problem
 };
 
 LiveSettings loadLiveSettings(const QSettings& settings);
 void saveLiveSettings(QSettings& settings, const LiveSettings& live);
-/// Saves only the attached blackboards.
-void saveAttachedBoards(QSettings& settings, const std::vector<link::AttachedBoard>& boards);
-
-/// Saves only the catalogs of variables that robots send.
-void saveCatalogs(QSettings& settings, const std::vector<std::string>& files);
-
-/// Reads "192.168.0.7, 192.168.1.0/24". Error InvalidArgument names the part that is wrong.
-Result<telemetry::SenderFilter> sendersFromText(const QString& text);
+/// Saves only the option with this key of liveOptionTable().
+void saveLiveOption(QSettings& settings, std::string_view key, const link::LiveOptions& options);
 
 }  // namespace pitchboard::ui

@@ -74,9 +74,9 @@ class MatchController : public FrameSource {
   bool isOpening() const { return m_opening; }
   /// Returns the scenario with which the match was opened.
   const link::Scenario& scenario() const { return m_scenario; }
-  /// Returns the scenario that restart() plays: from the beginning, with the current physics model.
+  /// Returns the scenario that restart() plays: from the beginning, with what was set up by hand.
   link::Scenario beginning() const;
-  SourceKind kind() const override { return SourceKind::Simulate; }
+  const SourceKind& kind() const override { return SourceKind::Simulate; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
@@ -146,6 +146,8 @@ class MatchController : public FrameSource {
   void ending();  ///< the match is about to end; last chance for its observers
   /// Emitted before `ending` if the match may come back. Receivers add what they keep of it.
   void retiring(pitchboard::ui::RetiredMatch& match);
+  /// Emitted while another match is prepared. Receivers may add observers, which see all of it.
+  void preparing(std::vector<std::shared_ptr<pitchboard::link::TickObserver>>& observers);
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows
   void opened();            ///< the match has been started, or could not be
   void transportChanged();  ///< paused, speed, or whether there is a match

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -27,14 +28,31 @@ namespace pitchboard::ui {
 /// A new pose for a robot.
 struct RobotPlacement {
   RobotId id;
-  Pose from;
+  Pose from;  ///< of what the user took hold of
   Pose to;
 };
 
-/// A part of an order that can be undone. Both functions run on the match's thread; `undo` is
-/// called only after a successful `redo`.
+/// A part of an edit. Both functions run on the match's thread; `undo` is called only after a
+/// successful `redo`.
 struct EditStep {
   std::function<Result<void>(link::SimulatedMatch&)> redo, undo;
+};
+
+/// Puts a robot there; undone, it stands where it was.
+EditStep placementStep(RobotId id, const Pose& pose);
+/// Puts the ball there, with this velocity in m/s; undone, it moves where and as it did.
+EditStep ballStep(Point to, Velocity velocity = {});
+
+/// A change of the match that can be undone.
+struct MatchEdit {
+  QString text;                 ///< name in the undo menu
+  QString whatFailed;           ///< as in MatchOrder
+  std::vector<EditStep> steps;  ///< all of them are carried out between two ticks, or none
+  QString mergeKey = {};        ///< as in Edit
+  /// What the studio knows of the match, changed as soon as the edit is sent, and changed back if
+  /// it is refused or undone. UI thread.
+  std::function<void()> note = {}, takeBack = {};
+  link::Changed changes = link::Changed::Yes;  ///< as in MatchOrder
 };
 
 class MatchEdits : public QObject {
@@ -57,38 +75,41 @@ class MatchEdits : public QObject {
   // The following functions do nothing while no match is open, and while locked.
   /// Returns whether the match may be changed; emits `failed` if it is locked.
   bool allowsChange();
-  /// Carries out the edit and puts it on the undo stack, which it leaves again if the match refuses
-  /// all of it.
-  void perform(Edit edit);
-  /// Carries out all steps between two ticks, or none of them. After a success they are one command
-  /// on the undo stack. `whatFailed` as in MatchOrder, `mergeKey` as in Edit.
-  void performOrder(const QString& text, const QString& whatFailed, std::vector<EditStep> steps,
-                    const QString& mergeKey = {});
+  /// Carries out the edit, also in a match that is being opened. Once the match has made the
+  /// change, it is one command on the undo stack; what the match refuses is reported and leaves no
+  /// command.
+  void perform(MatchEdit edit);
   /// Returns a new number for sim::RefereeCall::cause.
   std::uint32_t newCause() { return ++m_lastCause; }
-  /// Makes a change that cannot be undone or is part of an edit, also in a match that is being
-  /// opened.
+  /// Makes a change that cannot be undone, also in a match that is being opened.
   void order(MatchOrder change);
   void order(link::MatchRunner::Command change);
 
+  /// Returns the scenario with what was set up by hand: robots that were added, removed or changed,
+  /// the advisors, physics and noise. Robots keep the places that they have in the scenario.
+  link::Scenario setUp(link::Scenario scenario) const;
   /// Called when the match continues from this moment: takes over its robots and clears the undo
   /// stack.
   void adopt(const link::Moment& moment);
 
-  // Edits that can be undone. What the match refuses does not stay on the undo stack.
+  // Edits that can be undone, as perform() carries them out.
   void moveRobots(const std::vector<RobotPlacement>& placements);
   /// The same for arrow keys and wheel: moves within a second become one command.
   void nudgeRobots(const std::vector<RobotPlacement>& placements);
   /// `velocity` is that of the ball at `to`, in m/s.
-  void moveBall(Point from, Point to, Velocity velocity = {});
+  void moveBall(Point to, Velocity velocity = {});
   void addRobot(TeamColor team, const Pose& pose, std::optional<int> number = {});
   void removeRobots(const std::vector<RobotId>& ids);
+  /// Returns why this team cannot have a robot: with a referee two teams play. Empty: it can.
+  QString whyNoTeam(TeamColor team) const;
   /// Moves the robots to a team; each gets the smallest free shirt number there.
   void setTeam(const std::vector<RobotId>& ids, TeamColor team);
+  /// Returns whether another robot of the team wears this number.
+  bool isTaken(const sim::RobotIdentity& wanted) const;
   /// Changes the shirt number; emits `failed` if a team-mate has it.
   void setNumber(RobotId id, int number);
   void setBehaviour(const std::vector<RobotId>& ids, const QString& behaviour);
-  /// Returns whether the team thinks ahead (docs/advisor.md).
+  /// Returns whether the team's keeper has an advisor (docs/advisor.md).
   bool isAdvised(TeamColor team) const { return m_advisors.contains(team); }
   void setAdvised(TeamColor team, bool on);
   /// Changes the robot model. Changes of the same robots within a second become one command.
@@ -102,10 +123,6 @@ class MatchEdits : public QObject {
   /// MatchController::replace(). Also allowed while the past is shown.
   void replaceMatch(const link::Scenario& scenario, const QString& text, const QString& done,
                     bool paused, std::function<void()> between = {});
-
-  // Move robots and ball during a drag, without the undo stack; only its end is an undo command.
-  void previewRobots(const std::vector<RobotPlacement>& placements);
-  void previewBall(Point position);
 
   void setNoise(const sim::NoiseParameters& noise);
   void setRigidBody(const sim::RigidBodySettings& settings);
@@ -148,7 +165,7 @@ class MatchEdits : public QObject {
   static const Field<sim::RobotModel> modelField;
   static const Field<link::RuntimeChoice> runtimeField;
 
-  struct Attempt;
+  struct Performed;  // an edit on its way to the undo stack, or on it
   /// The control that the user is moving.
   struct Gesture {
     sim::Setting setting{};
@@ -157,17 +174,17 @@ class MatchEdits : public QObject {
     QElapsedTimer age;               // since its last change
     QString mergeKey() const { return QStringLiteral("setting %1").arg(cause); }
   };
-  void push(Edit edit);
-  /// Sends an order to the match; while a command is carried out, as a part of it.
-  void post(MatchOrder order);
+  void carryOut(const std::shared_ptr<Performed>& edit, std::function<void()> onSuccess = {});
+  void takeBack(const std::shared_ptr<Performed>& edit);
   const EditCommand* lastEdit() const;
-  /// Takes the last command off the stack if the match refused it.
+  /// Takes the last command off the stack if the match refused to make its change again.
   void dropRefused();
   void orderProcesses(const std::function<void(link::ProcessManager&)>& what);
-  /// Gives known robots these values, here and in the match.
+  /// Gives robots these values, in what is known of them here.
   template <class Value>
-  void set(const Field<Value>& field, const Values<Value>& values);
-  /// The same as an edit, for those that have another value. `text`: %1 becomes who they are.
+  void note(const Field<Value>& field, const Values<Value>& values);
+  /// Changes those that have another value. `text` and the field's `whatFailed`: %1 becomes who
+  /// they are.
   template <class Value>
   void change(const Field<Value>& field, Values<Value> values, const QString& text,
               const QString& mergeKey = {});
@@ -176,24 +193,20 @@ class MatchEdits : public QObject {
   QString subjectOf(const Items& items, RobotId first) const;
   /// The smallest shirt number that no robot of the team and none of `taken` wears.
   int freeNumber(TeamColor team, const std::vector<int>& taken = {}) const;
-  bool wearsAnother(const sim::RobotIdentity& wanted);
+  bool refusesTaken(const sim::RobotIdentity& wanted);
   void performPlacements(const std::vector<RobotPlacement>& placements, const QString& mergeKey);
-  void insert(const link::ScenarioRobot& robot);
-  void erase(RobotId id);
-  void placeRobots(const std::vector<RobotPlacement>& placements, Pose RobotPlacement::*where);
-  void placeBall(Point position, Velocity velocity = {});
-  void adviseTeam(TeamColor team, const std::optional<link::AdvisorOptions>& advisor);
+  void noteRobots(const std::vector<link::ScenarioRobot>& robots, bool present);
+  void noteAdvisor(TeamColor team, const std::optional<link::AdvisorOptions>& advisor);
   void takePhysics(const std::string& name);
-  void switchPhysics(const std::string& name, const std::function<void(sim::Simulation&)>& report);
   /// Carries out the step and reports the change as an event, which undo takes back. Arguments as
-  /// in performOrder().
+  /// in MatchEdit.
   void changeSetting(sim::Setting setting, const QString& text, const QString& whatFailed,
                      EditStep step);
 
   MatchController* m_match;
   QUndoStack* m_undoStack;
-  std::shared_ptr<Attempt> m_attempt;               // of the command that is being carried out
   std::map<RobotId, link::ScenarioRobot> m_robots;  // present or about to be
+  std::set<RobotId> m_added;                        // by hand: each stands where it was put
   std::map<TeamColor, link::AdvisorOptions> m_advisors;
   std::string m_physics;
   bool m_locked = false, m_reportedLocked = false;

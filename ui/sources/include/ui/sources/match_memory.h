@@ -46,6 +46,8 @@ class MatchMemory : public QObject {
     std::shared_ptr<link::MatchSampler> sampler;
     std::shared_ptr<link::StateArchive> archive;
     std::shared_ptr<link::DrawingMemory> drawings;
+    /// Of each robot, with the times (s) from which on it had them.
+    std::map<RobotUid, std::vector<std::pair<double, std::string>>> behaviours;
   };
 
   // Called by the controller when a match is made or comes back, and when there is none.
@@ -94,6 +96,8 @@ class MatchMemory : public QObject {
   void branched(const pitchboard::ui::MatchBranch& left);
 
  private:
+  void noteBehaviours(const link::MatchFrame& frame);
+
   MatchController* m_match;
   std::size_t m_budget = std::size_t{1} << 30;
   int m_everyNth = 1;

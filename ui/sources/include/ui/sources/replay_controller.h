@@ -32,6 +32,8 @@ class ReplayController : public FrameSource {
   telemetry::SessionInfo info() const;
   /// Returns whether the file is truncated or damaged and can be repaired.
   bool isBroken() const;
+  /// Returns whether the file was still being recorded when it was opened.
+  bool isGrowing() const;
   /// Returns whether the file is a run of an experiment that would end differently if it were
   /// played again.
   bool isUnrepeatable() const;
@@ -40,16 +42,22 @@ class ReplayController : public FrameSource {
   /// Returns the groups of the file as soon as it is open, before series() has their rows.
   std::vector<telemetry::GroupInfo> groups() const;
 
-  SourceKind kind() const override { return SourceKind::Replay; }
+  const SourceKind& kind() const override { return SourceKind::Replay; }
   FramePtr frame() const override { return m_frame; }
   std::shared_ptr<const telemetry::SeriesStore> series() const override;
   QString emptyText() const override;
   FramePtr frameAt(double time) const override;
   std::optional<QDateTime> clock() const override;
-  Playback* playback() const override { return m_playback; }
+  std::optional<telemetry::TimeRange> available() const override;
+  double standsAt() const override { return m_time; }
+  /// Shows the moment at this time, limited to available().
+  void standAt(double time) override;
 
   /// Returns the share of rows in memory, 0 to 1; 1 if nothing is being read.
   double loaded() const { return m_loaded; }
+  /// Keeps a bookmark, or its changed note, beside the file (session_notes.h). `notKept` follows if
+  /// that fails.
+  void keepBookmark(const link::MatchEvent& bookmark);
   /// Limits the memory for rows, in bytes. If a session does not fit, memory contains a coarse
   /// overview and the rows around the visible range; if the file has no overview (truncated, or
   /// older than 0.3), memory contains its end, and noted() says so.
@@ -58,6 +66,10 @@ class ReplayController : public FrameSource {
  signals:
   void opened();
   void failed(const QString& sentence);
+  /// Another program recorded this file, so that it is not opened.
+  void foreignFound(const QString& path);
+  /// A bookmark could not be written, as a sentence.
+  void notKept(const QString& sentence);
   /// Remarks about the file, such as parts that could not be read.
   void noted(const QStringList& sentences);
   /// Damage found while reading the rest of the file.
@@ -68,7 +80,6 @@ class ReplayController : public FrameSource {
   struct File;  // what is open
   void take(std::shared_ptr<File> file);
   void dropPages();
-  void wantMoment(double time);
   void readMoment();
   void load();
   void page();
@@ -78,7 +89,7 @@ class ReplayController : public FrameSource {
   std::shared_ptr<File> m_file;
   std::shared_ptr<ReplayPages> m_pages;  // null while all rows are in memory
   QString m_path;
-  Playback* m_playback;
+  double m_time = 0.0;  // at which it stands
   FramePtr m_frame;
   bool m_opening = false;
   double m_loaded = 1.0;

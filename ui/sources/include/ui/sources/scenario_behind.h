@@ -13,12 +13,11 @@ namespace pitchboard::ui {
 
 class MatchController;
 class ReplayController;
-class SourceSwitch;
+class ShownMoment;
 
 /// Empty for live robots, and for a session without a scenario. The game is that of the moment
 /// shown; there is none if the exact state of that moment is not in memory.
-std::optional<link::Scenario> scenarioBehind(const SourceSwitch& source,
-                                             const MatchController& match,
+std::optional<link::Scenario> scenarioBehind(const ShownMoment& shown, const MatchController& match,
                                              const ReplayController& replay);
 
 }  // namespace pitchboard::ui

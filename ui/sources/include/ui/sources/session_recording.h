@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Records the simulated match or the live data to a session file until it is stopped or the match
-// ends, and saves the recent past from memory. Files get new names in the chosen folder and are
-// never overwritten. UI thread only; files are written on other threads.
+// Records the simulated match or the live data to a session file until it is stopped, and saves the
+// recent past from memory. If another match replaces the recorded one, recording goes on with it in
+// a new file. Files get new names in the chosen folder and are never overwritten. UI thread only;
+// files are written on other threads.
 
 #include <QDir>
 #include <QObject>
@@ -26,8 +27,7 @@ namespace pitchboard::ui {
 
 class LiveController;
 class MatchController;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// Writes a session to this path, which must not exist.
 using SessionMaker = std::function<Result<void>(const QString& path)>;
@@ -35,8 +35,8 @@ using SessionMaker = std::function<Result<void>(const QString& path)>;
 class SessionRecording : public QObject {
   Q_OBJECT
  public:
-  SessionRecording(MatchController* controller, LiveController* live, SourceSwitch* source,
-                   Timeline* timeline, QSettings* settings, QObject* parent);
+  SessionRecording(MatchController* controller, LiveController* live, ShownMoment* shown,
+                   QSettings* settings, QObject* parent);
   ~SessionRecording() override;  ///< same as end(), without signals
 
   /// Returns the folder for files: Documents/Pitchboard unless another one was chosen. It is
@@ -60,6 +60,9 @@ class SessionRecording : public QObject {
   /// Returns the status of the current recording.
   telemetry::SessionStatus status() const;
   QString path() const { return m_path; }
+  /// Returns the files of recordings that a studio with these settings did not end, because it was
+  /// killed, and forgets them. Those of a studio that still runs are not among them.
+  QStringList drainLost();
 
   /// Saves the last `seconds` from memory into a new file; `saved` follows.
   void saveLast(double seconds);
@@ -76,8 +79,13 @@ class SessionRecording : public QObject {
  private:
   QString newPath(const QString& title);
   QString title() const;
+  QString matchTitle() const;
   bool makeFolder(const QDir& folder);
-  void begin(const QString& path);
+  void begin(const QString& path,
+             std::vector<std::shared_ptr<link::TickObserver>>* observers = nullptr);
+  void goOn(std::vector<std::shared_ptr<link::TickObserver>>& observers);
+  /// Keeps in the settings what this studio records, for drainLost() after it was killed.
+  void keepPath(const QString& path);
   void checkHealth();
   void warnOf(const telemetry::SessionStatus& status);
   void finish(bool matchEnds);
@@ -90,19 +98,21 @@ class SessionRecording : public QObject {
     std::function<void()> detach;          ///< after this, it receives nothing more
     std::function<Result<void>()> finish;  ///< any thread, once detached
   };
-  Result<Recorder> recordMatch(const QString& path);
+  /// `observers`: of the match that is being opened; null: of the one that is open.
+  Result<Recorder> recordMatch(const QString& path,
+                               std::vector<std::shared_ptr<link::TickObserver>>* observers);
   Result<Recorder> recordLive(const QString& path);
 
   // A recording outlives what it records if need be.
   QPointer<MatchController> m_controller;
   QPointer<LiveController> m_live;
-  SourceSwitch* m_source;
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   QSettings* m_settings;
   QTimer* m_timer;
   telemetry::SessionWriterOptions m_writing;
   std::optional<Recorder> m_recorder;
   QString m_path;
+  QString m_endedPath;  // of a recording that ended with its match; empty: none did
   std::set<telemetry::RecordingTrouble> m_reported;  // of this recording
   std::deque<LogLine> m_log;                         // of the present match, for saveLast()
   UiQueue m_toUi;

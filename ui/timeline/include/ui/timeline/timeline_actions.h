@@ -17,13 +17,13 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 struct EventFilter;
 class LinkedTime;
-class Timeline;
+class ShownMoment;
 
 class TimelineActions : public QObject {
   Q_OBJECT
  public:
   /// `plots` and `future` may be null.
-  TimelineActions(Timeline* timeline, LinkedTime* plots, AbandonedFuture* future, QObject* parent);
+  TimelineActions(ShownMoment* shown, LinkedTime* plots, AbandonedFuture* future, QObject* parent);
   void fill(QMenu* menu);
 
   QAction* next() const { return m_next; }
@@ -42,7 +42,7 @@ class TimelineActions : public QObject {
   void fillFilter(QMenu* menu);
   void change(const std::function<void(EventFilter&)>& how);
 
-  Timeline* m_timeline;
+  ShownMoment* m_shown;
   LinkedTime* m_plots;
   QAction* m_now;
   QAction* m_oldest;

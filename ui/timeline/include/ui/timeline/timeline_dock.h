@@ -10,13 +10,13 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 class ComparedSession;
 class LinkedTime;
-class Timeline;
+class ShownMoment;
 class TimelineActions;
 
 /// What the dock shows and changes; all must outlive it.
 struct TimelineContext {
-  LinkedTime* time = nullptr;    ///< visible range and marks, shared with the plots
-  Timeline* timeline = nullptr;  ///< the moment shown, events, looking back
+  LinkedTime* time = nullptr;    ///< visible range and cursor, shared with the plots
+  ShownMoment* shown = nullptr;  ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
   ComparedSession* compared = nullptr;  ///< its events are in a second row; may be null
   AbandonedFuture* future = nullptr;    ///< shown as a second branch; may be null

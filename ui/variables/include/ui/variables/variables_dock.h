@@ -15,14 +15,12 @@ class AttachedBoards;
 class MatchController;
 class PlotTarget;
 class RobotSelection;
-class SourceSwitch;
-class Timeline;
+class ShownMoment;
 
 /// What the dock shows and changes; all must outlive it.
 struct VariablesContext {
   MatchController* controller = nullptr;  ///< writes variables of its robots
-  SourceSwitch* source = nullptr;
-  Timeline* timeline = nullptr;         ///< the moment shown; null: always the newest
+  ShownMoment* shown = nullptr;
   PlotTarget* plots = nullptr;          ///< where variables can be sent to be plotted; may be null
   QSettings* settings = nullptr;        ///< the user's; may be null
   RobotSelection* selection = nullptr;  ///< requests for a robot's blackboard; may be null

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include <ui/base/running_work.h>
 #include <ui/base/theme.h>
 #include <ui/sources/frame_source.h>
 
@@ -43,10 +44,9 @@ class ScenarioFiles;
 class SessionFiles;
 class SessionRecording;
 class SituationTests;
-class SourceSwitch;
+class ShownMoment;
 class StudioStatusBar;
 struct StudioParts;
-class Timeline;
 class TimelineActions;
 class TransportBar;
 class UndoHistory;
@@ -59,7 +59,7 @@ class MainWindow : public QMainWindow {
   ~MainWindow() override;
 
   FieldView* field() const { return m_field; }
-  Timeline* timeline() const { return m_timeline; }
+  ShownMoment* shown() const { return m_shown; }
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
   SessionFiles* sessions() const { return m_sessions; }
@@ -86,7 +86,7 @@ class MainWindow : public QMainWindow {
   int memoryBudget() const;
   void setMemoryBudget(int megabytes);
   /// Shows the source of this kind; Live starts to listen.
-  void showSource(SourceKind kind);
+  void showSource(const SourceKind& kind);
   /// Shows simulated and live robots together on the field.
   void overlayLive(bool on);
 
@@ -95,6 +95,10 @@ class MainWindow : public QMainWindow {
   void resetLayout();
   /// Offers to remove blackboards that an earlier run left behind.
   void offerToRemoveOrphans();
+  /// Offers recordings that an earlier run did not end, because it was killed.
+  void offerLostRecordings();
+  /// Closes the window without a question, whatever runs.
+  void closeNow();
 
  signals:
   void recordingFailed(const QString& sentence);
@@ -108,7 +112,7 @@ class MainWindow : public QMainWindow {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  StudioParts parts() const;
+  StudioParts parts();
   void makeMenus();
   void makeKeys();
   void cancelStepByStep();
@@ -124,17 +128,17 @@ class MainWindow : public QMainWindow {
   void distributeSpace();
   void distributeSpaceLater();
   void notifyFinished(const link::MatchFrame& frame);
+  void askToClose(const QStringList& running);
   void askForSpeed(const QStringList& programs, double wanted);
 
   MatchController* m_controller;
   LiveController* m_live;
   QSettings* m_settings;
-  SourceSwitch* m_source;
+  ShownMoment* m_shown;
   UndoHistory* m_undo;
   RobotSelection* m_selection;
   LinkedTime* m_time;
   PlotTarget* m_plots;
-  Timeline* m_timeline;
   AbandonedFuture* m_future;
   ReplayController* m_replay;
   SessionRecording* m_recording;
@@ -156,6 +160,8 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<KeyMap> m_keys;
   QByteArray m_savedLayout;
   QSize m_firstSize;  // if there is no saved layout
+  RunningWork m_work;
+  bool m_closesNow = false;
   bool m_wasShown = false;
   bool m_wasActive = false;
   bool m_notifiedFinished = false;

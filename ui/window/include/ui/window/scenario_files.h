@@ -32,7 +32,9 @@ class ScenarioFiles : public QObject {
   /// Saves the field as PNG.
   void exportPicture(const QString& path);
   void askAndOpen();
+  /// Asks where to save the moment at which this is called.
   void askAndSave();
+  /// Asks where to save the picture of the moment at which this is called.
   void askAndExportPicture();
   /// Selects the scenario in the chooser after it was opened elsewhere.
   void showCurrent(const QString& nameOrPath);
@@ -41,6 +43,10 @@ class ScenarioFiles : public QObject {
   void failed(const QString& sentence);
 
  private:
+  void save(const QString& path, link::Scenario moment);
+  /// Returns the bytes of a file; empty for a suffix that is not known.
+  QByteArray picture(const QString& suffix) const;
+  void writePicture(const QString& path, const QByteArray& bytes);
   void read(const QString& nameOrPath, const std::function<void(const link::Scenario&)>& play);
 
   MatchController* m_controller;

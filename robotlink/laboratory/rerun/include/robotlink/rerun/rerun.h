@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Runs a recording through a process again: a blackboard of its own gets, at their recorded times,
+// all values that other processes wrote; the chosen processes read it and write their outputs,
+// which are compared with the recorded ones. What a simulated robot sensed is played again from the
+// checkpoints of the session, bit for bit. Our processes and programs that cooperate run in
+// lock-step: then unchanged code gives the same outputs to the last bit, if the recording has all
+// of its inputs. Times are seconds of the session. Everything is used on one thread, to which
+// separate programs belong. Tutorial: docs/tutorial-rerun.md.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <base/file_target.h>
+#include <base/result.h>
+#include <robotlink/rerun/compared_variable.h>
+#include <telemetry/session/session_reader.h>
+#include <telemetry/session/session_writer.h>
+
+namespace pitchboard::link {
+
+/// A process that runs again, and what runs as it: "reference" (ours, as it was recorded), a
+/// behaviour (decision only), a runtime profile (.json), or a program with its arguments, which may
+/// contain ${key} and the like.
+struct RerunProcess {
+  std::string name;     ///< "decision"
+  std::string program;  ///< "./decide.py"
+};
+
+/// Reads "decision=./decide.py". Fails with ParseError.
+Result<RerunProcess> rerunProcessFromText(std::string_view text);
+
+struct RerunOptions {
+  std::string robot;  ///< "B1"
+  std::vector<RerunProcess> processes;
+  std::optional<double> from, until;  ///< what is compared; empty: everything
+  /// s before `from` that are played and not compared, because processes remember what happened;
+  /// empty: everything in lock-step, otherwise 10 s.
+  std::optional<double> warmUp;
+  double speed = 0.0;  ///< times real time; 0: as fast as possible
+  /// s by which a program may act earlier or later; empty: 0 in lock-step, otherwise 0.5.
+  std::optional<double> slack;
+  bool exact = false;  ///< every distance is a difference, not only those beyond tolerance
+  std::vector<std::string> writes;  ///< more variables that the processes write; * for any text
+  std::string catalog;              ///< file with the map of variables; empty: that of the session
+  std::optional<int> match;  ///< number that gives the key of the blackboard; empty: a free one
+  std::string robotProgram;  ///< pitchboard-robot; empty: the one beside this program
+  /// Where the unchanged program differs, from an earlier rerun: left out.
+  std::vector<ComparedVariable> unchanged;
+
+  /// Called with sentences for people: before the start with what the recording lacks.
+  std::function<void(const std::string&)> note;
+  /// Called with each line that a separate program prints.
+  std::function<void(const std::string&)> print;
+  /// Called for each moment that is compared, with a value for each variable.
+  std::function<void(double time, std::span<const ComparedVariable>,
+                     std::span<const ComparedValue>)>
+      compared;
+  /// Called about 50 times a second with the share that is done; false cancels.
+  std::function<bool(double)> progress;
+};
+
+struct RerunResult {
+  std::string robot;  ///< "B1"
+  std::vector<RerunProcess> processes;
+  std::vector<std::string> notes;
+  double begin = 0.0, end = 0.0;  ///< what was compared
+  bool inLockStep = false;
+  double slack = 0.0;
+  /// Names of inputs that were recorded less often than the robot's ticks. If there are any, what
+  /// differs may come from the recording.
+  std::vector<std::string> sampledInputs;
+  double rowInterval = 0.0;  ///< s between two rows of the recording
+  std::vector<ComparedVariable> variables;
+
+  std::uint64_t compared() const;      ///< values
+  std::uint64_t unequal() const;       ///< of them not the same to the last bit
+  std::uint64_t unchangedToo() const;  ///< of them left out because of RerunOptions::unchanged
+  std::uint64_t stretches() const;
+  /// Returns whether the recording may be the reason for differences.
+  bool isTooCoarse() const { return !sampledInputs.empty(); }
+};
+
+/// Runs a part of a session again. Fails with NotFound for unknown robots, processes and programs,
+/// with the names that are known; with InvalidArgument if the recording has none of the inputs;
+/// with SystemError if a program dies, does not answer, or the blackboard is removed; with Conflict
+/// after a cancel.
+Result<RerunResult> rerun(const telemetry::SessionReader& session, const RerunOptions& options);
+
+/// The same, and writes a session with everything of the first one and the robot "B1 rerun" beside
+/// the original, with an event for each difference. After an error there is no new file.
+Result<RerunResult> rerunToFile(const telemetry::SessionReader& session,
+                                const RerunOptions& options, const std::string& path,
+                                IfExists ifExists = IfExists::Refuse);
+
+}  // namespace pitchboard::link

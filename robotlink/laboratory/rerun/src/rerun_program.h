@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// A process that runs again on the blackboard of a rerun: one of ours, inside this program, or a
+// separate program with clocks that follow the recording. Private to the module; the thread of the
+// rerun, to which separate programs belong.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/processes/process_manager.h>
+#include <robotlink/rerun/rerun.h>
+#include <simcore/world/world_state.h>
+
+namespace pitchboard::link {
+
+/// What is known of the robot that runs again.
+struct RerunRobot {
+  RobotId id;
+  TeamColor team = TeamColor::Blue;
+  int shirt = 1;
+  std::string behaviour;  ///< as recorded; empty: unknown
+  BehaviourParameters parameters;
+  sim::FieldSpec field;
+  sim::RobotModel model;
+  std::uint64_t seed = 1;
+  std::optional<bool> facesLeft;
+};
+
+class RerunProgram {
+ public:
+  virtual ~RerunProgram() = default;
+  /// Its turn in a tick. Fails if the program died or does not answer.
+  virtual Result<void> cycle(std::uint64_t tick) = 0;
+  /// Called when the robot has changed its direction of attack.
+  virtual Result<void> changeSides(const RerunRobot& robot, std::uint64_t tick) = 0;
+  /// Returns the largest speed (times real time; 0: unlimited) that it allows now.
+  virtual double allowedSpeed(double wanted) = 0;
+  /// Called between ticks, about 50 times a second, with the time played and the speed.
+  virtual Result<void> lookAfter(double seconds, double speed) = 0;
+  /// Returns whether the rerun waits for each of its cycles.
+  virtual bool inLockStep() const = 0;
+  /// Returns the process's turn in a tick (feed.h).
+  virtual int turn() const = 0;
+};
+
+/// How a process is to run, from the text behind "decision=".
+struct RerunChoice {
+  std::string process;                 ///< "decision"
+  bool isInside = false;               ///< one of ours
+  BehaviourChoice behaviour;           ///< inside, decision: if chosen
+  bool hasBehaviour = false;           ///< otherwise as recorded
+  std::vector<std::string> command{},  ///< separate; may contain ${...}
+      shown{};
+  std::string directory{};
+  std::vector<std::pair<std::string, std::string>> environment{};
+  std::string cycle{};  ///< variable in which it reports its cycles
+  double responseTimeout = 5.0;
+  bool realClock = false;
+};
+
+/// Reads a choice. `recorded` is the behaviour of the recording. Fails with NotFound, with the
+/// names that are known.
+Result<RerunChoice> rerunChoice(const RerunProcess& process, const RerunRobot& robot);
+
+/// Makes a process of ours that starts after `tick`. With `resumes` it starts with what stands on
+/// the blackboard, because it had been running before.
+Result<std::unique_ptr<RerunProgram>> insideProgram(const RerunChoice& choice,
+                                                    const RerunRobot& robot, Blackboard& board,
+                                                    double tickRate, std::uint64_t tick,
+                                                    bool resumes);
+
+/// Starts a separate program and waits until it has attached to the blackboard.
+Result<std::unique_ptr<RerunProgram>> separateProgram(
+    const RerunChoice& choice, const RerunRobot& robot, Blackboard& board,
+    const VariableCatalog& catalog, const std::string& robotProgram,
+    const std::function<bool()>& goesOn, const std::function<void(std::string)>& print);
+
+}  // namespace pitchboard::link

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A recording runs through separate programs again: one that cooperates gives the same bits, one
+// that does not is compared over time, and what goes wrong is said.
+#include <QtTest>
+
+#include <sys/shm.h>
+#include <cmath>
+#include <set>
+#include <thread>
+
+#include <robotlink/blackboard/system_v.h>
+#include <robotlink/rerun/rerun_text.h>
+#include <robotlink/session/row_slot.h>
+
+#include "rerun_rig.h"
+
+namespace tst_rerun_programs {
+
+using namespace rerun_rig;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr const char* robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+
+QByteArray exampleText(const char* name) {
+  QFile file(QString(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/") + name);
+  if (!file.open(QIODevice::ReadOnly)) qFatal("there is no %s", name);
+  return file.readAll();
+}
+
+}  // namespace
+
+class TestRerunPrograms : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+
+  std::string write(const QString& name, const QByteArray& text) const {
+    QFile file(m_folder.filePath(name));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write");
+    file.write(text);
+    return file.fileName().toStdString();
+  }
+  /// A match of a robot that this program decides for, in lock-step; recorded once.
+  std::string recordWith(const std::string& program, const char* noise) const {
+    const QString name = QString("separate-") + noise;
+    const QString known = m_folder.filePath(name + ".mcap");
+    if (QFile::exists(known)) return known.toStdString();
+    const std::string profile =
+        write("profile.json",
+              R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [
+             {"name": "decision", "command": ["python3", ")" +
+                  QByteArray::fromStdString(program) + R"(", "${key}"]}]})");
+    Recorded how{scenarioWith("one-robot", noise), 30.0};
+    how.scenario.robots[0].runtime.profile = profile;
+    how.options.robotProgram = robotProgram;
+    bool ready = false;
+    return record(m_folder, name, how, [&](MatchPlayer& player) {
+      while (!ready) {
+        const auto now = MatchPlayer::Clock::now();
+        player.lookAfterProcesses(now);
+        ready = !player.match().pace().awaitsPrograms(ProcessPace::Await::AllPrograms, now);
+        std::this_thread::yield();
+      }
+    });
+  }
+  static RerunOptions optionsOf(const std::string& program) {
+    RerunOptions options = optionsFor("B1", {{"decision", program}});
+    options.robotProgram = robotProgram;
+    return options;
+  }
+
+ private slots:
+  void initTestCase() { QVERIFY(m_folder.isValid()); }
+
+  void aCooperatingProgramGivesTheSameBits_data() {
+    QTest::addColumn<QString>("noise");
+    for (const char* noise : {"none", "realistic"}) QTest::newRow(noise) << QString(noise);
+  }
+  void aCooperatingProgramGivesTheSameBits() {
+    QFETCH(QString, noise);
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, qPrintable(noise)));
+    const auto same = rerun(session, optionsOf(program));
+    QVERIFY2(same, same ? "" : same.error().text().c_str());
+    QVERIFY(same->inLockStep);
+    QVERIFY2(same->unequal() == 0, qPrintable(shown(*same)));
+    QVERIFY(variable(*same, "DECISION_ACTION_A").compared > 1700);
+
+    // A planted change, where the recording crosses it and nowhere else.
+    QByteArray changed = exampleText("ball_robot.py");
+    changed.replace("KICK_DISTANCE = 25", "KICK_DISTANCE = 35");
+    const auto other = rerun(session, optionsOf(write("changed.py", changed)));
+    QVERIFY2(other, other ? "" : other.error().text().c_str());
+    std::set<double> expected;
+    const auto& group = session.groups()[1].info;
+    QCOMPARE(group.name, std::string("B1"));
+    const RowSlot lost = findSlot(group, {"VISION_LOST"}),
+                  pan = findSlot(group, {"VISION_PAN_DEG"}),
+                  dist = findSlot(group, {"VISION_BALL_DIST"});
+    const std::array<telemetry::GroupId, 1> only{1};
+    session.rows({-1e18, 1e18}, only, [&](telemetry::GroupId, const telemetry::RowView& row) {
+      const double tick = std::round(row.time * 60.0);
+      const bool decides = std::fmod(tick, 6.0) == 0.0 && tick > 0;
+      const bool crosses = lost.read(row) != 1.0 && std::abs(std::trunc(pan.read(row))) <= 40.0 &&
+                           dist.read(row) >= 25.0 && dist.read(row) < 35.0;
+      if (decides && crosses) expected.insert(tick);
+      return true;
+    });
+    QVERIFY(!expected.empty());
+    std::set<double> begins;
+    const ComparedVariable& action = variable(*other, "DECISION_ACTION_A");
+    for (const DifferentStretch& stretch : action.stretches) {
+      const bool lasts = stretch.end >= other->end - 1e-6;  // to the end of the recording
+      const double begin = std::round(stretch.begin * 60.0);
+      const double end = std::round(stretch.end * 60.0) + (lasts ? 1.0 : 0.0);
+      QVERIFY2(expected.count(begin) > 0, qPrintable(QString::number(begin)));
+      for (auto tick = expected.begin(); tick != expected.end();) {
+        tick = *tick >= begin && *tick < end ? expected.erase(tick) : std::next(tick);
+      }
+    }
+    QVERIFY2(expected.empty(), qPrintable(QString::number(*expected.begin())));
+  }
+
+  /// The documented example sleeps between its cycles. At another speed it acts at other moments.
+  void aProgramWithASleepIsComparedOverTime() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, "none"));
+    RerunOptions options =
+        optionsOf("python3 " PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py ${key} 0.05");
+    options.speed = 4.0;
+    options.from = 1.0;  // its first cycle sees a blackboard that nobody has written yet
+    options.until = 12.0;
+    const auto result = rerun(session, options);
+    QVERIFY2(result, result ? "" : result.error().text().c_str());
+    QVERIFY(!result->inLockStep);
+    QCOMPARE(result->slack, 0.5);
+    // The same rule: the same actions, at nearly the same time.
+    QVERIFY2(!variable(*result, "DECISION_ACTION_A").differs(), qPrintable(shown(*result)));
+  }
+
+  void aProgramThatDiesIsNamedWithItsLastWords() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, "none"));
+    QByteArray dies = exampleText("ball_robot.py");
+    dies.replace("    tick = ints[CYCLE]",
+                 "    if ints[CYCLE] > 300: sys.exit(\"no idea\")\n    tick = ints[CYCLE]");
+    const auto result = rerun(session, optionsOf(write("dies.py", dies)));
+    QVERIFY(!result);
+    const QString text = QString::fromStdString(result.error().text());
+    QVERIFY2(text.contains("exit code 1") && text.contains("no idea"), qPrintable(text));
+    const auto atOnce = rerun(session, optionsOf("sh -c \"exit 3\""));
+    QVERIFY(!atOnce);
+    QVERIFY2(QString::fromStdString(atOnce.error().text()).contains("exit code"),
+             atOnce.error().text().c_str());
+  }
+
+  void aSegmentThatDisappearsIsNamed() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, "none"));
+    RerunOptions options = optionsOf(program);
+    options.match = 41;
+    const int key = blackboardKey(RobotId{1}, MatchNumber{41}.keyBase());
+    options.speed = 2.0;
+    options.progress = [key](double part) {
+      const int shmid = shmget(key, 0, 0);
+      if (part > 0.05 && shmid >= 0) shmctl(shmid, IPC_RMID, nullptr);
+      return true;
+    };
+    const auto result = rerun(session, options);
+    QVERIFY(!result);
+    const QString text = QString::fromStdString(result.error().text());
+    QVERIFY2(text.contains("was removed") && text.contains(QString::number(key)), qPrintable(text));
+  }
+
+  void aBlackboardOfOthersIsLeftAlone() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, "none"));
+    RerunOptions options = optionsOf(program);
+    options.match = 42;
+    const int key = blackboardKey(RobotId{1}, MatchNumber{42}.keyBase());
+    QVERIFY(SystemVSegments::create(key));
+    const auto result = rerun(session, options);
+    QVERIFY(SystemVSegments::remove(key));
+    QVERIFY(!result && result.error().code == ErrorCode::Conflict);
+    QVERIFY2(QString::fromStdString(result.error().text()).contains("--match"),
+             result.error().text().c_str());
+    // And nothing of ours is left behind.
+    QVERIFY(rerun(session, options));
+    QVERIFY(!SystemVSegments::info(key));
+  }
+};
+
+PITCHBOARD_TEST(TestRerunPrograms)
+
+}  // namespace tst_rerun_programs
+
+#include "tst_rerun_programs.moc"

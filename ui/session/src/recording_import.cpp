@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "recording_import.h"
+
+#include <QDir>
+#include <QFileInfo>
+#include <QProgressDialog>
+#include <QStandardPaths>
+
+#include <robotlink/import/import_session.h>
+
+namespace pitchboard::ui {
+namespace {
+
+/// The cache is on the disk, where a folder for temporary files may be in memory.
+std::unique_ptr<QTemporaryDir> importFolder() {
+  const QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
+  if (!cache.isEmpty() && QDir().mkpath(cache)) {
+    auto made = std::make_unique<QTemporaryDir>(cache + QStringLiteral("/import-XXXXXX"));
+    if (made->isValid()) return made;
+  }
+  return std::make_unique<QTemporaryDir>();
+}
+
+}  // namespace
+
+RecordingImport::RecordingImport(QWidget* window) : QObject(window), m_window(window) {}
+
+RecordingImport::~RecordingImport() {
+  if (m_cancelled) *m_cancelled = true;
+  m_worker.waitForDone();
+}
+
+bool RecordingImport::isOfOthers(const QString& path) {
+  static const QStringList endings{QStringLiteral("db3"), QStringLiteral("csv"),
+                                   QStringLiteral("tsv"), QStringLiteral("yaml"),
+                                   QStringLiteral("yml")};
+  const QFileInfo file(path);
+  return file.isDir() || endings.contains(file.suffix().toLower());
+}
+
+void RecordingImport::showProgress(const QString& path) {
+  delete m_dialog;
+  m_dialog = new QProgressDialog(QStringLiteral("Importing %1…").arg(QFileInfo(path).fileName()),
+                                 QStringLiteral("Cancel"), 0, 100, m_window);
+  m_dialog->setObjectName(QStringLiteral("importProgress"));
+  m_dialog->setWindowTitle(QStringLiteral("Import"));
+  m_dialog->setAutoClose(false);
+  m_dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(m_dialog, &QProgressDialog::canceled, this,
+          [cancelled = m_cancelled] { *cancelled = true; });
+}
+
+void RecordingImport::start(const QString& path) {
+  if (m_cancelled) *m_cancelled = true;
+  if (!m_folder) m_folder = importFolder();
+  m_cancelled = std::make_shared<std::atomic<bool>>(false);
+  showProgress(path);
+  // The window's title and the export dialog call the session by the recording's name.
+  const QDir folder(m_folder->filePath(QString::number(++m_count)));
+  QDir().mkpath(folder.path());
+  const QString name =
+      QFileInfo(path).isDir() ? QDir(path).dirName() : QFileInfo(path).completeBaseName();
+  const QString to = folder.filePath(name + QStringLiteral(".mcap"));
+  m_worker.start([this, path, to, cancelled = m_cancelled] {
+    int shown = -1;
+    const auto report =
+        link::importRecordings({path.toStdString()}, to.toStdString(), {}, [&](double share) {
+          const int percent = static_cast<int>(share * 100.0);
+          if (percent != shown) {
+            shown = percent;
+            m_toUi.post([this, percent, cancelled] {
+              if (cancelled == m_cancelled && m_dialog) m_dialog->setValue(percent);
+            });
+          }
+          return !*cancelled;
+        });
+    m_toUi.post([this, report, path, to, cancelled] {
+      if (cancelled != m_cancelled) return;  // another one was started
+      m_cancelled.reset();
+      delete m_dialog;
+      if (*cancelled) return;
+      if (!report) {
+        emit failed(
+            QStringLiteral("Could not import %1: %2")
+                .arg(QFileInfo(path).fileName(), QString::fromStdString(report.error().message)));
+        return;
+      }
+      QStringList notes;
+      for (const std::string& note : report->notes) notes << QString::fromStdString(note);
+      emit imported(path, to, notes);
+    });
+  });
+}
+
+}  // namespace pitchboard::ui

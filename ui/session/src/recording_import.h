@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Imports a recording of another program in the background, into a session in a temporary folder
+// that lives as long as this object. A dialog shows the progress and can cancel. Owned by
+// SessionFiles; UI thread only.
+
+#include <QObject>
+#include <QPointer>
+#include <QTemporaryDir>
+#include <atomic>
+#include <memory>
+
+#include <ui/base/ui_queue.h>
+#include <ui/base/workers.h>
+
+class QProgressDialog;
+class QWidget;
+
+namespace pitchboard::ui {
+
+class RecordingImport : public QObject {
+  Q_OBJECT
+ public:
+  explicit RecordingImport(QWidget* window);
+  ~RecordingImport() override;
+
+  /// Returns whether this is a recording of a kind that only other programs write, by its name.
+  /// MCAP files can be ours, too; ReplayController tells them apart.
+  static bool isOfOthers(const QString& path);
+  /// Imports a file or folder; an import that runs is cancelled.
+  void start(const QString& path);
+
+ signals:
+  /// The session is made. `notes` say what was not understood.
+  void imported(const QString& recording, const QString& session, const QStringList& notes);
+  void failed(const QString& sentence);
+
+ private:
+  void showProgress(const QString& path);
+
+  QWidget* m_window;
+  std::unique_ptr<QTemporaryDir> m_folder;
+  int m_count = 0;
+  std::shared_ptr<std::atomic<bool>> m_cancelled;  // of the import that runs; null: none does
+  QPointer<QProgressDialog> m_dialog;
+  UiQueue m_toUi;
+  Workers m_worker;
+};
+
+}  // namespace pitchboard::ui
