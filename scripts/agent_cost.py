@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What pitchboard-agent costs: scripts/agent_cost.py [PROGRAM]
 
-Starts the agent on a blackboard of its own, lets variables change, and prints a table: bandwidth with IP and UDP
-headers, datagrams a second, processor time and memory. PROGRAM: build/release/bin/pitchboard-agent unless given.
+Starts the agent on a blackboard of its own, lets variables change, and prints two tables: what recording costs, and what
+sending costs, with bandwidth including IP and UDP headers. PROGRAM: build/release/bin/pitchboard-agent unless given.
 """
 import ctypes
 import os
@@ -12,6 +12,7 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -94,8 +95,53 @@ def measure(program, names, rate, changing, seconds=6.0, limit=None):
         segment.remove()
 
 
+def boards(changing, count=400):
+    """Contents of a blackboard one after the other, in which a share of the words changes each time."""
+    numbers, words = random.Random(44), [0] * WORDS
+    for _ in range(count):
+        for word in range(WORDS):
+            if numbers.random() < changing:
+                number = numbers.uniform(-300, 300)
+                words[word] = (int(number) & 0xffffffff if word < FLOAT_OFFSET else
+                               struct.unpack("I", struct.pack("f", number))[0])
+        yield (ctypes.c_uint32 * WORDS)(*words)
+
+
+def measure_record(program, rate, changing, seconds=60.0):
+    """CPU in % of a core, memory in KB, and MB an hour of a recording without sending."""
+    segment, contents = Segment(own_key()), list(boards(changing))
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "flight.mcap"
+        agent = subprocess.Popen([str(program), "--robot", "1", "--key", str(segment.key), "--to", "none", "--record",
+                                  str(path), "--record-rate", str(rate)], stderr=subprocess.DEVNULL)
+        try:
+            # The first seconds have the descriptions of all variables.
+            begin, cpu, tick, due = time.monotonic() + 5.0, None, 0, time.monotonic()
+            while time.monotonic() < begin + seconds:
+                if cpu is None and time.monotonic() >= begin:
+                    cpu, size = cpu_seconds(agent.pid), path.stat().st_size
+                ctypes.memmove(segment.words, contents[tick % len(contents)], 4 * WORDS)
+                tick += 1
+                due += 1.0 / rate
+                time.sleep(max(0.0, due - time.monotonic()))
+            cpu = cpu_seconds(agent.pid) - cpu
+            memory = int(Path("/proc/%d/status" % agent.pid).read_text().split("VmHWM:")[1].split()[0])
+            return 100 * cpu / seconds, memory, (path.stat().st_size - size) / 1e6 / seconds * 3600
+        finally:
+            agent.terminate()
+            agent.wait()
+            segment.remove()
+
+
 def main():
     program = Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build/release/bin/pitchboard-agent"
+    print("| changing at each tick | rate | CPU of a core | memory | MB/h |")
+    print("|---|---|---|---|---|")
+    for rate, changing in ((100, 0.0), (100, 0.1), (100, 1.0), (500, 0.1), (500, 1.0)):
+        cpu, memory, size = measure_record(program, rate, changing)
+        print("| %d %% | %d Hz | %.1f %% | %.1f MB | %.0f |" % (100 * changing, rate, cpu, memory / 1024, size),
+              flush=True)
+    print()
     few = ["--variables", "LOCALIZATION_X,LOCALIZATION_Y,LOCALIZATION_THETA,VISION_BALL_DIST,VISION_BALL_ANGLE,"
            "DECISION_ACTION_?,IMU_EULER_?,VOLTAGE"]
     print("| variables | changing at each tick | rate | limit | kbit/s | datagrams/s | CPU of a core | memory |")

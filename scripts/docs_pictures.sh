@@ -90,14 +90,14 @@ first-minute() {
   rm -f settings.ini
   "$bin/pitchboard" --settings "$work/settings.ini" --size 1280x800 --theme light --scenario kick-off &
   window=$!
-  xdotool search --sync --onlyvisible --name Pitchboard mousemove 606 450 >/dev/null
+  xdotool search --sync --onlyvisible --name Pitchboard mousemove 596 450 >/dev/null
   sleep 3
   ffmpeg -loglevel error -y -f x11grab -framerate 10 -video_size 1280x800 -i "$DISPLAY" -t 10 -c:v libx264 -qp 0 \
     -preset ultrafast first-minute.mkv &
   local film=$! step
   sleep 1.5
-  xdotool mousemove 606 380 sleep 0.2 mousemove 606 313 sleep 0.5 mousedown 1
-  for step in {1..14}; do xdotool mousemove $((606 + step * 9)) $((313 + step * 8)) sleep 0.08; done
+  xdotool mousemove 596 350 sleep 0.2 mousemove 596 281 sleep 0.5 mousedown 1
+  for step in {1..14}; do xdotool mousemove $((596 + step * 9)) $((281 + step * 8)) sleep 0.08; done
   xdotool sleep 0.3 mouseup 1 sleep 0.4 mousemove 560 520
   wait "$film"
   kill "$window" && wait "$window" 2>/dev/null || true
@@ -105,7 +105,7 @@ first-minute() {
     -compression_level 6 first-minute.webp
 }
 studio-dark() { studio --scenario match-3v3 --play-to 3600; shoot studio-dark; }
-studio-light() { theme=light studio --scenario match-3v3 --play-to 3600; shoot studio-light; }
+studio-light() { theme=light studio --scenario kick-off; shoot studio-light 12; }
 scenario() {
   sed -n '/^```json two-against-one.json$/,/^```$/{/^```/d;p}' "$root/docs/scenarios.md" >two.json
   "$bin/pitchboard" --render-scenario two.json --picture scenario.png --size 800x600
@@ -235,7 +235,7 @@ replay() {
 experiments() {
   studio --scenario one-robot --paused
   find "Panels: Experiments"
-  drag 720 621 330
+  drag 720 521 330 # the panel has made room for itself
   click 1311 374 # Start: 4000 short runs
   sleep "${PITCHBOARD_EXPERIMENT_SECONDS:-60}"
   click 98 420   # Measured
@@ -243,7 +243,7 @@ experiments() {
 }
 
 explore() {
-  studio --scenario match-3v3 --cognition inline --play-to 2100
+  studio --scenario match-3v3 --seed 2 --cognition inline --play-to 6000 # red is about to score
   find "Explore from this moment"
   shoot explore 20
 }
@@ -284,6 +284,19 @@ tutorial-rerun() {
   "$bin/pitchboard-cli" record --scenario one-robot --noise realistic --seed 7 --runtime B1=team.json --speed max --duration 1:00 -o match.mcap --force >/dev/null
   sed 's/return 3  *# turn right.*/return 2 if floats[PAN_DEG] > 0 else 3/' ball_robot.py >fixed_robot.py
   terminal tutorial-rerun "pitchboard-cli rerun match.mcap --robot B1 --process decision=fixed_robot.py"
+}
+statistics() {
+  "$bin/pitchboard-cli" record --scenario match-3v3 --duration 40 -o match.mcap --force
+  terminal statistics "pitchboard-cli statistics match.mcap --variables TRUE_X --robots B1,B2,R1 --against BELIEF_X --histogram 5"
+}
+
+tutorial-rerun-studio() {
+  tutorial-rerun # its recording and its programs
+  studio --session match.mcap
+  find "Rerun with"
+  xdotool search --onlyvisible --name "Rerun with a program" windowfocus
+  xdotool key alt+p ctrl+a && xdotool type --delay 20 "$work/fixed_robot.py" && sleep 1 && xdotool key Return
+  shoot tutorial-rerun-studio 12
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
 building() { terminal building "$root/build/release/tests/tests_simcore tst_referee_parameters"; }
@@ -343,7 +356,7 @@ END
 }
 
 [ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots rollouts processes live plots replay experiments \
-  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun building cli conformance continuous-integration file-formats performance worlds
+  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun tutorial-rerun-studio building cli conformance continuous-integration file-formats performance statistics worlds
 for name in "$@"; do
   "$name"
   if [ -f "$name.webp" ]; then

@@ -52,6 +52,11 @@ sed -n '/^```yml log.yaml$/,/^```$/{/^```/d;p}' docs/other-robots.md | sed '1s/^
 printf '2uint8 a\nfloat64[] b\nstring c\nP[2] d\n====================\nMSG: p/P\nint16 x\0\0\1\0\0\1\0\0\0\0\0\0\0' > "$seeds/recordings/ros2msg"
 printf 'imodule p { module msg { @appendable struct T { long a; sequence<double> b; string c; }; }; };\0\0\11\0\0\4\0\0\0' > "$seeds/recordings/idl"
 printf 'j{"a": [1, {"name": "b"}], "stamp": {"sec": 1, "nanosec": 2}}' > "$seeds/recordings/json"
+printf 't{"op":"advertise","channels":[{"id":1,"topic":"/a","encoding":"protobuf","schema":"AA=="}]}' > "$seeds/foxglove/text"
+printf 'q{"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]}' > "$seeds/foxglove/request"
+printf 'c\3\0\0\0\200\77\1\0\0\0\0\0\0\0\0\2\0\0\0ab' > "$seeds/foxglove/control"
+printf 'b\1\1\0\0\0\2\0\0\0\0\0\0\0{}' > "$seeds/foxglove/binary"
+printf 'sws://robot3:8765/a,robot=3,team=red,map=FILE' > "$seeds/foxglove/source"
 cp resources/scenarios/*.json "$seeds/scenario/"
 cp tests/data/catalogs/* resources/*.json "$seeds/catalog/"
 printf '[Communication]\nno_player_robofei = 3\n[Pitchboard Management]\nprocesses = vision decision\ncommand.vision = python3 "a b.py" --key {key}\nresponse_timeout = 5\n' \
@@ -116,6 +121,20 @@ for row in range(1, 40):
     rows += b"\x68" + struct.pack("<fff", turned, 150 + 5 * math.sin(row), 5 - math.degrees(turned))
     rows += b"\x02" + struct.pack("<f", 40 - math.degrees(turned) + math.cos(3 * row)) + b"\x00"
 (seeds / "calibrate" / "turns").write_bytes(rows)
+
+def frame(binary, body):
+    return bytes([binary]) + len(body).to_bytes(2, "little") + body
+pose = {"id": 1, "topic": "/amcl_pose", "encoding": "json", "schema": "",
+        "schemaName": "geometry_msgs/msg/PoseWithCovarianceStamped"}
+joint = {"id": 2, "topic": "/joint", "encoding": "cdr", "schemaName": "a/msg/B", "schema": "float64 x"}
+turned = {"x": 0, "y": 0, "z": 0, "w": 1}
+body = json.dumps({"pose": {"pose": {"position": {"x": 1, "y": 2}, "orientation": turned}}}).encode()
+(seeds / "foxglove" / "conversation").write_bytes(
+    b"c" + frame(0, b'{"op":"serverInfo","name":"a","sessionId":"b"}')
+    + frame(0, json.dumps({"op": "advertise", "channels": [pose, joint]}).encode())
+    + frame(1, bytes([1]) + struct.pack("<IQ", 1, 10**9) + body)
+    + frame(1, bytes([1]) + struct.pack("<IQ", 2, 10**9) + b"\0\1\0\0" + struct.pack("<d", 1.5))
+    + frame(0, b'{"op":"unadvertise","channelIds":[1]}'))
 
 def record(stream, body):
     return bytes([stream]) + len(body).to_bytes(2, "little") + body

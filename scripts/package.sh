@@ -12,7 +12,7 @@ libpitchboard-dev, python3-pitchboard and pitchboard-doc. packaging/debian has w
 together with the sources into build/packages/pitchboard-VERSION, which is removed afterwards. lintian checks the packages.
   --arch ARCHITECTURE   for another processor, such as arm64; its libraries must be installed, as they are by
                         scripts/other_system.sh --arm64
-  --agent               pitchboard-agent alone, which needs no library of the other processor
+  --agent               pitchboard-agent alone
   --source              a source package, too
   --symbols             packages of debug symbols, too, which takes longer
   --built FOLDER        of what was built there with cmake --preset release, instead of building it: quick, for tests; with
@@ -71,6 +71,7 @@ options=(-us -uc $what) profiles=()
 [ -z "$agent" ] || profiles+=(pkg.pitchboard.agent)
 [ ${#profiles[@]} -eq 0 ] || options+=("-P$(IFS=, && echo "${profiles[*]}")")
 [ "${profiles[*]}" != cross ] || options+=(-B)  # what is the same on every processor, this computer can make
+[ -z "$agent" ] || [ -z "$built" ] || options+=(-d)  # built already, with the libraries of the other processor
 export DEB_BUILD_OPTIONS="parallel=$(nproc)${DEB_BUILD_OPTIONS:+ $DEB_BUILD_OPTIONS}"
 [ "$arch" = "$(dpkg --print-architecture)" ] || DEB_BUILD_OPTIONS+=' nocheck'
 if [ -z "$symbols" ]; then

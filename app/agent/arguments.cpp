@@ -40,7 +40,7 @@ Result<Receiver> receiverFrom(std::string_view text) {
     const auto address = telemetry::parseAddress(host);
     if (!address) {
       return invalid(
-          "--to must be ADDRESS, ADDRESS:PORT or broadcast, with an address such as "
+          "--to must be ADDRESS, ADDRESS:PORT, broadcast or none, with an address such as "
           "192.168.0.7, not \"" +
           std::string(text.substr(0, 40)) + "\"");
     }
@@ -79,8 +79,41 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
     arguments.catalog = value;
   } else if (option == "--variables") {
     for (std::string& glob : TRY(globsFrom(value))) arguments.globs.push_back(std::move(glob));
+  } else if (option == "--record") {
+    if (value.empty()) return invalid("--record needs the name of a new file, or of a folder");
+    arguments.record = value;
+  } else if (option == "--record-rate") {
+    arguments.recordRate = TRY(numberIn<double>(option, value, Arguments::slowest,
+                                                Arguments::fastestRecord, "1 to 500 Hz"));
+  } else if (option == "--record-size") {
+    arguments.recordSize = TRY(numberIn<double>(option, value, 1.0, 1e6, "1 to 1000000 MB"));
+  } else if (option == "--record-keep") {
+    arguments.recordKeep = TRY(numberIn<double>(option, value, 2.0, 1e7, "2 to 10000000 MB"));
+  } else if (value == "none") {
+    arguments.sends = false;
   } else {
     arguments.receivers.push_back(TRY(receiverFrom(value)));
+  }
+  return {};
+}
+
+Result<void> checkRecord(const Arguments& arguments) {
+  if (!arguments.sends && !arguments.receivers.empty()) {
+    return invalid("--to none cannot stand beside another --to");
+  }
+  if (!arguments.sends && arguments.record.empty()) {
+    return invalid("with --to none there is nothing to do; add --record FILE");
+  }
+  const Arguments usual;
+  const bool isSet = arguments.recordKeep || arguments.recordRate != usual.recordRate ||
+                     arguments.recordSize != usual.recordSize;
+  if (isSet && arguments.record.empty()) {
+    return invalid("--record-rate, --record-size and --record-keep say how; add --record FILE");
+  }
+  if (arguments.recordKeep && *arguments.recordKeep < 2.0 * arguments.recordSize) {
+    return invalid(
+        "--record-keep must be at least twice --record-size, because whole files are "
+        "deleted");
   }
   return {};
 }
@@ -88,19 +121,21 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
 }  // namespace
 
 const char* const helpText =
-    R"(Send the variables of a robot's blackboard to Pitchboard. Runs on the robot, reads its blackboard
-and changes nothing. Waits until there is a blackboard and a network. Receives nothing.
+    R"(Send the variables of a robot's blackboard to Pitchboard, or record them on the robot. Runs on the
+robot, reads its blackboard and changes nothing. Waits until there is a blackboard and a network.
+Receives nothing.
 
-Example:
+Examples:
   pitchboard-agent --robot 1 --to 192.168.0.7
+  pitchboard-agent --robot 1 --to none --record match.mcap
 
 Usage: pitchboard-agent --robot N [OPTIONS]
 
 Options:
   --robot N             Number of the robot, 1 to 64
   --to ADDRESS[:PORT]   Computer to send to, such as 192.168.0.7, or "broadcast" for all computers
-                        of the network (default). Repeat it to send to several. The port is
-                        1340 + robot number unless given
+                        of the network (default), or "none". Repeat it to send to several. The port
+                        is 1340 + robot number unless given
   --rate HZ             Highest rate of changed values, 1 to 100 (default 20). Every value is sent
                         every 2 s even if it has not changed
   --variables GLOB,...  Send only these, such as VISION_*,VOLTAGE (default: all)
@@ -109,13 +144,19 @@ Options:
   --catalog FILE        The team's own map of variables: .json, .h, .hpp or .py (default: the
                         published map)
   --key K               Key of the blackboard instead of 100 x robot number
+  --record FILE|FOLDER  Record every change of the blackboard, of all variables, into a new session
+                        file, or in this folder in files named by robot and time
+  --record-rate HZ      How often the blackboard is read for it, 1 to 500 (default 100)
+  --record-size MB      Continue in a new file at this size (default 100)
+  --record-keep MB      Delete the oldest files to stay below this size (default: keep all)
   -h, --help            Print this page
   --version             Print the version
 )";
 
 Result<Arguments> parseArguments(std::span<const char* const> argv) {
-  static constexpr std::string_view options[] = {"--robot",     "--key",     "--rate", "--limit",
-                                                 "--variables", "--catalog", "--to"};
+  static constexpr std::string_view options[] = {
+      "--robot", "--key",    "--rate",        "--limit",       "--variables",  "--catalog",
+      "--to",    "--record", "--record-rate", "--record-size", "--record-keep"};
   Arguments arguments;
   for (std::size_t i = 0; i < argv.size(); ++i) {
     const std::string_view argument = argv[i];
@@ -142,6 +183,8 @@ Result<Arguments> parseArguments(std::span<const char* const> argv) {
   }
   if (arguments.help || arguments.version) return arguments;
   if (arguments.robot == 0) return invalid("--robot is missing: the number of the robot, 1 to 64");
+  TRY(checkRecord(arguments));
+  if (!arguments.sends) return arguments;
   if (arguments.receivers.empty()) {
     arguments.receivers.push_back(TRY(receiverFrom("broadcast")));
   }

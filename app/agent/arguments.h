@@ -4,6 +4,7 @@
 // The command line of pitchboard-agent. It is parsed without a library, because that would be
 // larger than the rest of the program. Plain values; any thread.
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,15 +26,28 @@ struct Arguments {
   static constexpr double slowest = 1.0, fastest = 100.0;   ///< Hz
   static constexpr double minLimit = 16.0, maxLimit = 1e6;  ///< kbit/s
   static constexpr std::size_t maxReceivers = 16;
+  static constexpr double fastestRecord = 500.0;  ///< Hz
 
   int robot = 0;
   std::optional<int> key;
   std::string catalog;             ///< a file; empty: the published map
   double rate = 20.0;              ///< samples of the blackboard per second
   std::vector<std::string> globs;  ///< empty: every variable
+  bool sends = true;               ///< false: --to none
   std::vector<Receiver> receivers;
-  std::optional<double> limit;  ///< kbit/s
+  std::optional<double> limit;       ///< kbit/s
+  std::string record;                ///< a new file or a folder; empty: nothing is recorded
+  double recordRate = 100.0;         ///< Hz
+  double recordSize = 100.0;         ///< MB; of one file
+  std::optional<double> recordKeep;  ///< MB; of all files, of which the oldest are deleted
   bool help = false, version = false;
+
+  int boardKey() const { return key.value_or(100 * robot); }
+  /// Returns how often the blackboard is read: what is sent is also recorded.
+  double readRate() const {
+    if (!sends) return recordRate;
+    return record.empty() ? rate : std::max(rate, recordRate);
+  }
 };
 
 extern const char* const helpText;

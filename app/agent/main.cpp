@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// pitchboard-agent: runs on the robot and sends the variables of its blackboard (docs/agent.md).
+// pitchboard-agent: runs on the robot, and sends the variables of its blackboard or records
+// them there (docs/agent.md).
 #include <algorithm>
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -17,6 +20,7 @@
 
 #include "arguments.h"
 #include "output.h"
+#include "recorder.h"
 #include "schedule.h"
 
 namespace pitchboard::agent {
@@ -85,9 +89,58 @@ Time now() {
   return std::chrono::duration_cast<Time>(Clock::now().time_since_epoch());
 }
 
+/// Takes the words of `chosen`, which are in the order of `all`.
+void takeChosen(std::span<const link::Variable> all, const std::vector<std::uint32_t>& words,
+                std::span<const link::Variable> chosen, std::vector<std::uint32_t>& out) {
+  out.clear();
+  if (words.empty()) return;
+  for (std::size_t i = 0; i < all.size() && out.size() < chosen.size(); ++i) {
+    if (all[i].name == chosen[out.size()].name) out.push_back(words[i]);
+  }
+}
+
 /// For a person or the journal: nothing of it is read by programs.
 void printLine(const std::string& text) {
   if (!text.empty()) std::fprintf(stderr, "pitchboard-agent: %s\n", text.c_str());
+}
+
+/// A signal asked for the end, so that a recording gets one.
+std::atomic<bool> isAskedToEnd = false;
+
+Result<std::vector<Output>> outputsOf(const Arguments& arguments) {
+  std::vector<Output> outputs;
+  for (const Receiver& receiver : arguments.receivers) {
+    outputs.push_back(TRY(Output::to(
+        receiver.address, receiver.port.value_or(telemetry::pb2PortBase + arguments.robot))));
+  }
+  return outputs;
+}
+
+/// Begins to record. A disk that fails is reported, and the robot is still watched.
+Result<std::optional<Recorder>> recorderOf(const Arguments& arguments,
+                                           const link::VariableCatalog& catalog,
+                                           const link::SegmentLayout& layout) {
+  if (arguments.record.empty()) return std::nullopt;
+  RecordOptions options;
+  options.path = arguments.record;
+  options.robot = arguments.robot;
+  options.key = arguments.boardKey();
+  options.rate = arguments.readRate();
+  options.fileBytes = static_cast<std::uint64_t>(arguments.recordSize * 1e6);
+  options.keepBytes = static_cast<std::uint64_t>(arguments.recordKeep.value_or(0.0) * 1e6);
+  auto recorder = Recorder::start(options, catalog, layout, now());
+  if (!recorder) {
+    const bool isMistake = recorder.error().code == ErrorCode::Conflict;
+    if (isMistake || !arguments.sends) return tl::unexpected(recorder.error());
+    printLine("cannot record: " + recorder.error().text());
+    return std::nullopt;
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int number : {SIGINT, SIGTERM}) {
+    std::signal(number, [](int) { isAskedToEnd = true; });
+  }
+  printLine("recording to " + recorder->path());
+  return std::optional<Recorder>(*std::move(recorder));
 }
 
 Result<void> run(const Arguments& arguments) {
@@ -95,38 +148,55 @@ Result<void> run(const Arguments& arguments) {
   const link::VariableCatalog catalog =
       arguments.catalog.empty() ? link::VariableCatalog::published()
                                 : TRY(link::VariableCatalog::fromFile(arguments.catalog, layout));
-  const auto variables = TRY(chosenVariables(catalog, arguments.globs));
-  std::vector<Output> outputs;
-  std::string receivers;
-  for (const Receiver& receiver : arguments.receivers) {
-    outputs.push_back(TRY(Output::to(
-        receiver.address, receiver.port.value_or(telemetry::pb2PortBase + arguments.robot))));
-    receivers += (receivers.empty() ? "" : ", ") + outputs.back().name();
-  }
+  std::vector<link::Variable> chosen;
+  if (arguments.sends) chosen = TRY(chosenVariables(catalog, arguments.globs));
+  std::vector<Output> outputs = TRY(outputsOf(arguments));
+  std::optional<Recorder> recorder = TRY(recorderOf(arguments, catalog, layout));
   const ScheduleOptions options{
       .robot = arguments.robot,
       .rate = arguments.rate,
       .bytesPerSecond = arguments.limit.value_or(0.0) * 1000.0 / 8.0,
       .receivers = static_cast<int>(outputs.size()),
   };
-  Schedule schedule(options, variables);
-  RobotSegment segment(arguments.key.value_or(100 * arguments.robot), layout);
-  printLine("robot " + std::to_string(arguments.robot) + ": " + std::to_string(variables.size()) +
-            " variables to " + receivers);
+  Schedule schedule(options, chosen);
+  RobotSegment segment(arguments.boardKey(), layout);
+  if (arguments.sends) {
+    std::string receivers;
+    for (const Output& output : outputs) {
+      receivers += (receivers.empty() ? "" : ", ") + output.name();
+    }
+    printLine("robot " + std::to_string(arguments.robot) + ": " + std::to_string(chosen.size()) +
+              " variables to " + receivers);
+  }
 
-  const Time step(static_cast<Time::rep>(1e6 / arguments.rate));
-  std::vector<std::uint32_t> words;
-  for (Time tick = now();;) {
+  const auto stepOf = [](double rate) { return Time(static_cast<Time::rep>(1e6 / rate)); };
+  const Time step = stepOf(arguments.readRate()), sendStep = stepOf(arguments.rate);
+  std::vector<std::uint32_t> words, sent;
+  Time tick = now(), sendTick = tick;
+  while (!isAskedToEnd) {
     const Time time = now();
-    printLine(segment.look(time));
-    segment.read(schedule.variables(), words);
-    for (const std::string& datagram : schedule.next(time, words)) {
-      for (Output& output : outputs) printLine(output.send(datagram, time));
+    const std::string seen = segment.look(time);
+    printLine(seen);
+    segment.read(catalog.variables(), words);
+    if (recorder) {
+      if (!seen.empty()) recorder->note(time, seen);
+      printLine(recorder->take(time, words));
+      if (!recorder->isRecording() && !arguments.sends) {
+        return failure(ErrorCode::SystemError, "nothing is recorded any more, and --to is none");
+      }
+    }
+    if (arguments.sends && tick >= sendTick) {
+      sendTick = std::max(sendTick + sendStep, tick);
+      takeChosen(catalog.variables(), words, chosen, sent);
+      for (const std::string& datagram : schedule.next(time, sent)) {
+        for (Output& output : outputs) printLine(output.send(datagram, time));
+      }
     }
     // Ticks that were missed, because the computer slept or was busy, are left out.
     tick = std::max(tick + step, now());
     std::this_thread::sleep_until(Clock::time_point(tick));
   }
+  return recorder ? recorder->finish() : Result<void>();
 }
 
 }  // namespace
@@ -149,6 +219,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   const auto result = agent::run(*arguments);
+  if (result) return 0;
   std::fprintf(stderr, "error: %s\n", result.error().text().c_str());
   return refused;
 }

@@ -40,6 +40,8 @@ void addInspectCommand(CLI::App& parent, int& exitCode);
 void addRepairCommand(CLI::App& parent, int& exitCode);
 void addRecordCommand(CLI::App& parent, int& exitCode);
 void addExportCommand(CLI::App& parent, int& exitCode);
+void addFindCommand(CLI::App& parent, int& exitCode);
+void addStatisticsCommand(CLI::App& parent, int& exitCode);
 void addImportCommand(CLI::App& parent, int& exitCode);
 void addExperimentCommand(CLI::App& parent, int& exitCode);
 void addTournamentCommand(CLI::App& parent, int& exitCode);
@@ -48,6 +50,7 @@ void addLearnCommand(CLI::App& parent, int& exitCode);
 void addCalibrateCommand(CLI::App& parent, int& exitCode);
 void addExploreCommand(CLI::App& parent, int& exitCode);
 void addRerunCommand(CLI::App& parent, int& exitCode);
+void addServeCommand(CLI::App& parent, int& exitCode);
 
 using shared::addGroup;
 using shared::reportError;

@@ -73,6 +73,31 @@ void addMerge(CLI::App& parent, int& exitCode) {
   });
 }
 
+void addReport(CLI::App& parent, int& exitCode) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command =
+      parent.add_subcommand("report",
+                            "Write tables and report of finished results again, and print them. "
+                            "Exits with 1 if an assertion fails.\n"
+                            "Example: pitchboard-cli experiment report results");
+  command->add_option("folder", *folder, "Folder of results")->required()->type_name("DIR");
+  whenChosen(*command, folder, exitCode, [](const std::string& chosen) -> Result<int> {
+    const auto experiment = TRY(link::experimentOf(chosen));
+    auto results = TRY(link::ExperimentFolder::begin(chosen, experiment, true));
+    if (!results.complete()) {
+      return failure(ErrorCode::NotFound,
+                     std::to_string(results.finishedCount()) + " of " +
+                         std::to_string(experiment.allRuns()) +
+                         " runs have ended; play the others with pitchboard-cli experiment "
+                         "EXPERIMENT --out " +
+                         chosen + " --resume",
+                     chosen);
+    }
+    TRY(results.finish());
+    return printResults(experiment, results);
+  });
+}
+
 void addReplay(CLI::App& parent, int& exitCode) {
   struct Replay {
     std::string folder, output, robotProgram;
@@ -154,6 +179,7 @@ void addExperimentCommand(CLI::App& parent, int& exitCode) {
   command->require_subcommand(0, 1);
   addMerge(*command, exitCode);
   addReplay(*command, exitCode);
+  addReport(*command, exitCode);
   command->callback([command, options, &exitCode] {
     if (!command->get_subcommands().empty()) return;
     if (options->list) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/session/session_export.h>
-#include <telemetry/session/session_time.h>
 
 #include <unistd.h>
 #include <algorithm>
@@ -26,6 +25,7 @@
 #include "interrupt.h"
 #include "picture_export.h"
 #include "progress.h"
+#include "session_options.h"
 
 namespace pitchboard::cli {
 namespace {
@@ -80,42 +80,12 @@ constexpr const char* reportFormat = "report";
 
 struct ExportOptions {
   std::string file, format, output;
-  std::string from, until;
+  PartOptions part;
   std::vector<std::string> robots, variables;
-  bool rowsOnly = false, clock = false, interpolate = false;
+  bool rowsOnly = false, interpolate = false;
   double rate = 10.0;
   bool force = false, progress = false;
 };
-
-struct Part {
-  std::optional<double> from, until;
-};
-
-Result<Part> partOf(const SessionReader& session, const ExportOptions& options) {
-  Part part;
-  const auto range = session.range();
-  if (!range && (!options.from.empty() || !options.until.empty())) {
-    return failure(ErrorCode::InvalidArgument,
-                   "The recording is empty, so --from and --until cannot be used.");
-  }
-  const auto read = [&](const char* option, const std::string& text,
-                        std::optional<double>& to) -> Result<void> {
-    if (text.empty()) return {};
-    auto time = sessionTime(text, session.info().start, *range,
-                            options.clock ? TimeForms::Clock : TimeForms::Session, part.from);
-    if (!time) return failure(time.error().code, option + (": " + time.error().message));
-    to = *time;
-    return {};
-  };
-  if (auto from = read("--from", options.from, part.from); !from) {
-    return tl::unexpected(from.error());
-  }
-  // From 23:59 until 00:01 is two minutes.
-  if (auto until = read("--until", options.until, part.until); !until) {
-    return tl::unexpected(until.error());
-  }
-  return part;
-}
 
 /// An option that has a meaning for some formats only.
 struct FormatOption {
@@ -181,7 +151,7 @@ int exportSession(const ExportOptions& options) {
   reading.progress = [](double) { return !interrupted; };
   const auto session = SessionReader::open(options.file, reading);
   if (!session) return reportError(session.error());
-  const auto part = partOf(*session, options);
+  const auto part = partOf(*session, options.part);
   if (!part) return reportError(part.error());
   ExportSelection selection;
   selection.range.begin = part->from.value_or(selection.range.begin);
@@ -203,7 +173,7 @@ int exportSession(const ExportOptions& options) {
   }
   selection.variables = options.variables;
   selection.messages = !options.rowsOnly;
-  selection.clock = options.clock;
+  selection.clock = options.part.clock;
   selection.resampling = {options.rate, options.interpolate};
   if (*format == ExportFormat::Mcap) {
     selection.opening = link::openingAt(*session, selection.range.begin);
@@ -258,28 +228,15 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
           "needs ffmpeg). Without it, the name of the output says the format; on standard output "
           "csv-wide")
       ->type_name("FORMAT");
-  command->add_option("--from", options->from, std::string("Start: ") + sessionTimeForms)
-      ->type_name("T");
-  command->add_option("--until", options->until, "End; same format as --from")->type_name("T");
-  command
-      ->add_option("--robots", options->robots,
-                   "Export only these robots, e.g. B1,R2; 'match' for data of no robot")
-      ->type_name("NAMES")
-      ->delimiter(',');
-  command
-      ->add_option("--variables", options->variables,
-                   "Export only these variables; * matches any letters")
-      ->type_name("NAMES")
-      ->delimiter(',');
+  addPart(*command, options->part, "; CSV: add a column with the time of day (UTC)");
+  addRobots(*command, options->robots,
+            "Export only these robots, e.g. B1,R2; 'match' for data of no robot");
+  addVariables(*command, options->variables, "Export only these variables; * matches any letters");
   command->add_option("--rate", options->rate, "Rows (csv-even) or frames (videos) per second")
       ->type_name("N")
       ->capture_default_str();
   command->add_flag("--interpolate", options->interpolate,
                     "csv-even: interpolate linearly instead of holding each value");
-  command->add_flag(
-      "--clock", options->clock,
-      "Read --from and --until as local times of day; CSV: add a column with the time of "
-      "day (UTC)");
   command->add_flag("--rows-only", options->rowsOnly,
                     "Leave out events, log and datagrams (jsonl, mcap)");
   command

@@ -67,9 +67,9 @@ void addImportCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<ImportCommand>();
   CLI::App* command = parent.add_subcommand(
       "import",
-      "Make a session of what other programs recorded: MCAP (ROS 2, ROS 1, JSON, protobuf), "
-      "rosbag2 "
-      "(sqlite3), CSV, and the GameController's log. A folder or several files are one recording.\n"
+      "Make a session of what other programs recorded. They are MCAP (ROS 2, ROS 1, JSON, "
+      "protobuf), rosbag2 (sqlite3), CSV, and the GameController's log. A folder or several files "
+      "are one recording.\n"
       "What cannot be read is printed to stderr with its count.\n"
       "Examples: pitchboard-cli import rosbag2_2026_07_01/ -o match.mcap\n"
       "          pitchboard-cli import robot.mcap --map team.json -o match.mcap\n"

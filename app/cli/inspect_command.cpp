@@ -191,8 +191,8 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
-                            "Summarize a recording and check that all of it can be "
-                            "read. Exits with 1 if it is truncated or damaged, or if "
+                            "Summarize a recording and check all of it. Exits with 1 if it is "
+                            "truncated or damaged, or if "
                             "part of it is unknown, as in files of other programs.\n"
                             "Example: pitchboard-cli inspect match.mcap --events");
   command->add_option("file", options->file, "The recording")->required()->type_name("FILE");

@@ -50,6 +50,11 @@ class Printer : public link::LiveObserver {
     put(dump(json) + "\n");
   }
 
+  void decoded(const link::LiveTopicMessage& message) override {
+    if (m_json) return put(dump(topicJson(message)) + "\n");
+    put(message.arrival, message.source.address.text(), topicLine(message));
+  }
+
   void happened(const link::MatchEvent& event) override {
     const auto after = std::chrono::duration<double>(event.time);
     const auto time = m_began + std::chrono::duration_cast<telemetry::Duration>(after);
@@ -82,6 +87,9 @@ class Printer : public link::LiveObserver {
     }
     for (const link::SentStatus& sent : details.sent) {
       put(dump(healthJson(sent, details.team.time)) + "\n");
+    }
+    for (const link::TopicSourceStatus& source : details.topics) {
+      put(dump(healthJson(source, details.team.time)) + "\n");
     }
   }
 
@@ -127,8 +135,9 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   const std::uint64_t here = network.queueDrops + left;
   const std::uint64_t bad = team.errors.messages() + details.unknownReferee + details.badVariables;
   std::fprintf(
-      stderr, "%llu datagrams from %zu robots; lost: %llu in the kernel, %llu here; bad: %llu%s",
-      static_cast<unsigned long long>(network.datagrams()), team.robots.size(),
+      stderr, "%llu datagram%s from %zu robot%s; lost: %llu in the kernel, %llu here; bad: %llu%s",
+      static_cast<unsigned long long>(network.datagrams()), network.datagrams() == 1 ? "" : "s",
+      team.robots.size(), team.robots.size() == 1 ? "" : "s",
       static_cast<unsigned long long>(network.kernelDrops()), static_cast<unsigned long long>(here),
       static_cast<unsigned long long>(bad), refusedText(details).c_str());
   for (const telemetry::RobotStatus& robot : team.robots) {
@@ -136,6 +145,9 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   }
   for (const link::SentStatus& sent : details.sent) {
     std::fprintf(stderr, "\n  %s", healthLine(sent).c_str());
+  }
+  for (const link::TopicSourceStatus& source : details.topics) {
+    std::fprintf(stderr, "\n  %s", healthLine(source).c_str());
   }
   if (details.badVariables > 0) {
     std::fprintf(stderr, "\n  variables that could not be read: %llu, e.g. %s",
@@ -169,6 +181,7 @@ Result<int> listenToRobots(const PrintOptions& options) {
   watch.observe(printer);
   reportListening(live, begun.network);
   std::map<std::size_t, std::string> reported;
+  std::map<std::string, std::string> reportedSources;
   const auto begin = Clock::now();
   auto nextLook = begin, nextHealth = begin + std::chrono::seconds(1);
   const std::chrono::duration<double> limit(options.duration.value_or(0.0));
@@ -178,6 +191,7 @@ Result<int> listenToRobots(const PrintOptions& options) {
       nextLook = now + milliseconds(100);
       const link::LiveDetails details = watch.details();
       reportPorts(details, reported);
+      reportSources(details, reportedSources);
       if (!details.monitorProblem.empty()) {
         return failure(ErrorCode::SystemError, details.monitorProblem);
       }
@@ -213,7 +227,8 @@ void addListenCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli listen\n"
       "          pitchboard-cli listen --json --duration 60 > match.jsonl\n"
       "          pitchboard-cli listen --profile our-team.json --from 192.168.0.0/24\n"
-      "          pitchboard-cli listen --team ours.json --team theirs.json");
+      "          pitchboard-cli listen --team ours.json --team theirs.json\n"
+      "          pitchboard-cli listen --foxglove ws://robot3:8765");
   shared::addDuration(*command, "--duration", options->duration,
                       "Stop after this time instead of at Ctrl+C");
   addListenOptions(*command, options->network);

@@ -83,6 +83,29 @@ void reportPorts(const link::LiveDetails& details, std::map<std::size_t, std::st
   }
 }
 
+void reportSources(const link::LiveDetails& details, std::map<std::string, std::string>& reported) {
+  for (const link::TopicSourceStatus& source : details.topics) {
+    const FoxgloveClientStatus& client = source.client;
+    std::string text;
+    if (client.state == FoxgloveState::Connected) {
+      // The topics come a moment later.
+      if (source.channels == 0) continue;
+      text = source.source.address.text() + ": connected to " + client.server + " (" +
+             client.subprotocol + "), reading " + std::to_string(source.decoded) + " of " +
+             std::to_string(source.channels) + " topics";
+      for (const std::string& reason : source.unread) text += "\n  " + reason;
+    } else if (client.state == FoxgloveState::Waiting) {
+      text = "warning: " + client.problem + " Trying again.";
+    } else {
+      continue;
+    }
+    std::string& last = reported[source.source.address.text()];
+    if (text == last) continue;
+    last = text;
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+}
+
 std::string refusedText(const link::LiveDetails& details) {
   std::string out;
   const auto add = [&out](std::uint64_t count, const char* what) {

@@ -27,6 +27,8 @@ void reportListening(const link::LiveOptions& options, const telemetry::Receiver
 /// Prints to stderr which ports cannot be opened or are shared with other programs, once for each
 /// change.
 void reportPorts(const link::LiveDetails& details, std::map<std::size_t, std::string>& reported);
+/// Prints to stderr how the connections to programs with topics are, once for each change.
+void reportSources(const link::LiveDetails& details, std::map<std::string, std::string>& reported);
 /// Returns "; refused: 12 of senders that are not on the list, ..."; empty if nothing was refused.
 std::string refusedText(const link::LiveDetails& details);
 

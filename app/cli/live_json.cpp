@@ -314,6 +314,100 @@ std::string healthLine(const link::SentStatus& sent) {
   return out;
 }
 
+Json topicJson(const link::LiveTopicMessage& received) {
+  const RecordedMessage& message = received.message;
+  Json values = Json::object();
+  std::size_t text = 0;
+  for (std::size_t i = 0; i < message.values.size(); ++i) {
+    const RecordedField& field = message.shape->fields[i];
+    Json& value = values[field.path];
+    if (field.kind == RecordedKind::Text) {
+      value = message.texts[text++];
+    } else if (std::isfinite(message.values[i])) {
+      value = message.values[i];
+    }
+  }
+  return {{"type", "topic"},
+          {"time", unixSeconds(received.arrival)},
+          {"source", received.source.address.text()},
+          {"topic", received.topic.name},
+          {"messageType", received.topic.type},
+          {"logTime", message.logTime},
+          {"stamp", message.stamp ? Json(*message.stamp) : Json(nullptr)},
+          {"values", std::move(values)}};
+}
+
+std::string topicLine(const link::LiveTopicMessage& received) {
+  constexpr std::size_t mostValues = 12;
+  const RecordedMessage& message = received.message;
+  constexpr std::size_t longestName = 200;
+  std::string line;
+  addPrintable(line, received.topic.name, longestName);
+  std::size_t text = 0;
+  for (std::size_t i = 0; i < message.values.size() && i < mostValues; ++i) {
+    const RecordedField& field = message.shape->fields[i];
+    line += "  ";
+    addPrintable(line, field.path, longestName);
+    line += ' ';
+    if (field.kind == RecordedKind::Text) {
+      addPrintable(line, message.texts[text++], 40);
+    } else {
+      char number[32];
+      std::snprintf(number, sizeof number, "%.9g", message.values[i]);
+      line += number;
+    }
+  }
+  if (message.values.size() > mostValues) line += "  ...";
+  return line;
+}
+
+Json healthJson(const link::TopicSourceStatus& source, WallTime now) {
+  const FoxgloveClientStatus& client = source.client;
+  static constexpr const char* states[] = {"connecting", "connected", "waiting"};
+  return {{"type", "topicsHealth"},
+          {"source", source.source.address.text()},
+          {"state", states[static_cast<std::size_t>(client.state)]},
+          {"server", client.server},
+          {"subprotocol", client.subprotocol},
+          {"problem", client.problem},
+          {"channels", source.channels},
+          {"decoded", source.decoded},
+          {"skipped", source.skipped},
+          {"unread", source.unread},
+          {"received", client.messages},
+          {"dropped", client.dropped},
+          {"malformed", client.malformed + source.wrong},
+          {"connections", client.connections},
+          {"rate", source.rate},
+          {"delay", source.delay},
+          {"jitter", source.jitter},
+          {"clockOffset", source.clockOffset},
+          {"bytes", client.bytes},
+          {"time", unixSeconds(now)}};
+}
+
+std::string healthLine(const link::TopicSourceStatus& source) {
+  const FoxgloveClientStatus& client = source.client;
+  std::string line = source.source.address.text() + ": ";
+  line +=
+      client.state == FoxgloveState::Connected
+          ? "connected to " + (client.server.empty() ? "a server without a name" : client.server)
+          : "not connected";
+  line += ", " + std::to_string(source.decoded) + " of " + std::to_string(source.channels) +
+          " topics, " + std::to_string(client.messages) + " received, " +
+          std::to_string(client.dropped) + " dropped, " +
+          std::to_string(client.malformed + source.wrong) + " bad";
+  if (!client.malformedReason.empty()) line += " (" + client.malformedReason + ")";
+  char part[80];
+  std::snprintf(part, sizeof part, ", delay %.1f ms above the shortest, jitter %.1f ms",
+                source.delay * 1000.0, source.jitter * 1000.0);
+  if (client.messages > 0) line += part;
+  if (source.skipped > 0) {
+    line += "; images and point clouds are skipped: " + std::to_string(source.skipped);
+  }
+  return line;
+}
+
 std::string dump(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

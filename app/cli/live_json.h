@@ -39,6 +39,15 @@ Json healthJson(const link::SentStatus& sent, telemetry::WallTime now);
 /// Returns "B1 variables: 205 from 192.168.0.1, 900 received, ...".
 std::string healthLine(const link::SentStatus& sent);
 
+/// Returns {"type": "topic", "topic": "/imu", "values": {"path": 1.5, ...}, ...} (docs/live.md).
+Json topicJson(const link::LiveTopicMessage& message);
+/// Returns "/imu  path 1.5  ...", with the first values.
+std::string topicLine(const link::LiveTopicMessage& message);
+/// Returns {"type": "topicsHealth", "source": "ws://robot3:8765", ...} (docs/live.md).
+Json healthJson(const link::TopicSourceStatus& source, telemetry::WallTime now);
+/// Returns "ws://robot3:8765: connected to NAME, 12 of 15 topics, 900 received, ...".
+std::string healthLine(const link::TopicSourceStatus& source);
+
 /// Returns the JSON as text; bytes that are not UTF-8 are replaced.
 std::string dump(const Json& json);
 

@@ -23,7 +23,8 @@ int main(int argc, char** argv) try {
       &addListenCommand,     &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
       &addRepairCommand,     &addExportCommand,      &addImportCommand,      &addExperimentCommand,
       &addTournamentCommand, &addTestCommand,        &addCalibrateCommand,   &addLearnCommand,
-      &addExploreCommand,    &addRerunCommand};
+      &addExploreCommand,    &addRerunCommand,       &addServeCommand,       &addFindCommand,
+      &addStatisticsCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) exitCode = *ended;

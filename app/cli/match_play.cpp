@@ -68,7 +68,7 @@ class Playing {
     m_player.lookAfterProcesses(Clock::now());  // their last lines
     if (m_match.nobodyPlays()) {
       std::fputs(
-          "warning: nobody played, because no robot was told to. Add --referee "
+          "warning: no robot played, because none was told to. Add --referee "
           "humanoid-soccer-2026, or write COM_REFEREE = 2 in the scenario.\n",
           stderr);
     }

@@ -125,13 +125,16 @@ Result<int> recordLive(const RecordOptions& options) {
   {
     Health health(options.progress);
     std::map<std::size_t, std::string> reported;
+    std::map<std::string, std::string> reportedSources;
     const auto begin = Clock::now();
     const auto isOver = [&] {
       return options.play.duration &&
              Clock::now() - begin >= std::chrono::duration<double>(*options.play.duration);
     };
     while (!interrupted && !isOver() && recorder->status().recording) {
-      reportPorts(watch.details(), reported);
+      const link::LiveDetails now = watch.details();
+      reportPorts(now, reported);
+      reportSources(now, reportedSources);
       health.showStatus(recorder->status());
       std::this_thread::sleep_for(healthInterval);
     }
@@ -166,7 +169,8 @@ void addRecordCommand(CLI::App& parent, int& exitCode) {
       "Examples: pitchboard-cli record --scenario match-3v3 --duration 10:00 -o match.mcap\n"
       "          pitchboard-cli record --scenario match --referee humanoid-soccer-2026 -o "
       "final.mcap\n"
-      "          pitchboard-cli record --live -o training.mcap");
+      "          pitchboard-cli record --live -o training.mcap\n"
+      "          pitchboard-cli record --live --foxglove ws://robot3:8765 -o training.mcap");
   command->add_option("-o,--output", o.output, "Write this new recording")
       ->required()
       ->type_name("FILE.mcap");

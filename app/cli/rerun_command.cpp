@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
-#include <base/read_file.h>
 #include <base/time_text.h>
 #include <base/try.h>
 #include <robotlink/blackboard/match_number.h>
+#include <robotlink/rerun/program_watch.h>
 #include <robotlink/rerun/rerun_check.h>
 #include <robotlink/rerun/rerun_text.h>
 #include <telemetry/session/session_time.h>
@@ -21,7 +21,9 @@
 namespace pitchboard::cli {
 namespace {
 
-constexpr std::size_t maxUnchangedBytes = std::size_t{64} << 20;
+using namespace std::chrono_literals;
+
+constexpr auto watchInterval = 50ms;
 
 struct RerunCommand {
   std::string session;  // the first of `sessions`
@@ -31,6 +33,7 @@ struct RerunCommand {
   std::optional<double> warmUp, slack;
   link::RerunOptions options;
   bool same = false, ignoreSame = false, json = false, force = false, progress = false;
+  bool watch = false;
 };
 
 Result<link::RerunOptions> rerunOptions(const RerunCommand& command,
@@ -54,20 +57,8 @@ Result<link::RerunOptions> rerunOptions(const RerunCommand& command,
 
 /// What an earlier --same found, if there is such a file beside the session.
 Result<void> takeUnchanged(const RerunCommand& command, link::RerunOptions& options) {
-  const std::string path = link::unchangedPath(command.session, options);
-  std::error_code code;
-  if (command.same || command.ignoreSame || !std::filesystem::exists(path, code)) return {};
-  const std::string text = TRY(readFile(path, maxUnchangedBytes));
-  options.unchanged = TRY(link::unchangedFromJson(text, path)).variables;
-  return {};
-}
-
-/// `--same` keeps what it found; an older result of it is replaced.
-Result<void> keepUnchanged(const RerunCommand& command, const link::RerunOptions& options,
-                           const link::RerunResult& result) {
-  const std::string path = link::unchangedPath(command.session, options);
-  TRY(writeFile(path, link::rerunToJson(result, command.session) + '\n', IfExists::Replace));
-  std::fprintf(stderr, "Later reruns leave these differences out: %s\n", path.c_str());
+  if (command.same || command.ignoreSame) return {};
+  options.unchanged = TRY(link::readUnchanged(command.session, options));
   return {};
 }
 
@@ -88,7 +79,14 @@ Result<int> judge(const RerunCommand& command, const link::RerunCheck& check,
   return exitCode;
 }
 
-Result<int> rerunSession(const RerunCommand& command) {
+struct RerunEnd {
+  int exitCode = 0;
+  std::shared_ptr<const link::RerunOutputs> outputs;
+};
+
+/// Runs one recording, and compares also with the outputs of the last run, if there are any.
+Result<RerunEnd> rerunSession(const RerunCommand& command,
+                              std::shared_ptr<const link::RerunOutputs> last) {
   const IfExists old = TRY(ifExists(command.out, command.force, command.session));
   const IfExists oldReport = TRY(ifExists(command.report, command.force, command.session));
   std::optional<link::RerunCheck> check;
@@ -96,7 +94,7 @@ Result<int> rerunSession(const RerunCommand& command) {
   const auto session = TRY(telemetry::SessionReader::open(command.session));
   link::RerunOptions options = TRY(rerunOptions(command, session));
   TRY(takeUnchanged(command, options));
-  const InterruptGuard signals;
+  options.last = std::move(last);
   std::optional<Progress> progress;
   progress.emplace("rerunning", command.progress);
   options.progress = [&](double part) { return (*progress)(part) && !interrupted; };
@@ -113,17 +111,68 @@ Result<int> rerunSession(const RerunCommand& command) {
       TRY(command.out.empty() ? link::rerun(session, options)
                               : link::rerunToFile(session, options, command.out, old));
   progress.reset();
-  const std::string text =
-      command.json ? link::rerunToJson(result, command.session) + '\n' : link::rerunTable(result);
+  const std::string text = command.json ? link::rerunToJson(result, command.session) + '\n'
+                                        : link::rerunTable(result) + link::sinceLastTable(result);
   std::fputs(text.c_str(), stdout);
   if (!command.report.empty()) {
     TRY(writeFile(command.report, link::rerunReport(result, command.session), oldReport));
   }
   if (command.same) {
-    options.robot = result.robot;
-    TRY(keepUnchanged(command, options, result));
+    const auto path = TRY(link::keepUnchanged(command.session, options, result));
+    std::fprintf(stderr, "Later reruns leave these differences out: %s\n", path.c_str());
   }
-  return check ? TRY(judge(command, *check, result)) : 0;
+  return RerunEnd{check ? TRY(judge(command, *check, result)) : 0, result.outputs};
+}
+
+Result<int> rerunOnce(const RerunCommand& command) {
+  const InterruptGuard signals;
+  return TRY(rerunSession(command, nullptr)).exitCode;
+}
+
+/// Runs again whenever the program's files change, until somebody interrupts it. A program that
+/// fails is reported and the next change awaited; the exit code is that of the last complete run.
+Result<int> rerunWatching(RerunCommand command) {
+  if (command.same) {
+    return failure(ErrorCode::InvalidArgument,
+                   "--same runs the unchanged program once; leave --watch out.");
+  }
+  std::vector<link::RerunProcess> processes;
+  for (const std::string& process : command.processes) {
+    processes.push_back(TRY(link::rerunProcessFromText(process)));
+  }
+  const InterruptGuard signals;
+  link::ProgramWatch watch(processes);
+  {
+    const auto session = TRY(telemetry::SessionReader::open(command.session));
+    const auto options = TRY(rerunOptions(command, session));
+    TRY(link::planRerun(session, options));
+  }
+  if (watch.isEmpty()) {
+    return failure(ErrorCode::InvalidArgument,
+                   "There is no file to watch, because the processes are ours; name a program, for "
+                   "example decision=./decide.py.",
+                   "--watch");
+  }
+  RerunEnd end;
+  for (bool first = true; !interrupted; first = false) {
+    const auto ran = rerunSession(command, end.outputs);
+    if (interrupted) break;
+    // What never could run is a mistake in the command; a program that breaks may be mended.
+    if (!ran && first && ran.error().code != ErrorCode::SystemError) {
+      return tl::unexpected(ran.error());
+    }
+    if (ran) end = *ran;
+    if (!ran) (void)reportError(ran.error());
+    std::fflush(stdout);
+    std::fprintf(stderr, "Waiting for a change of the program; Ctrl+C ends.\n");
+    while (!interrupted && !watch.hasChanged(std::chrono::steady_clock::now())) {
+      std::this_thread::sleep_for(watchInterval);
+    }
+    if (interrupted) break;
+    std::fprintf(stderr, "%s has changed.\n", watch.changedFile().c_str());
+    command.force = true;  // its own files of the last run
+  }
+  return end.exitCode;
 }
 
 /// A recording of many.
@@ -164,10 +213,11 @@ std::string manyRow(const std::string& path, const link::RerunResult& result, st
 /// Recordings run at the same time, one per processor. Those that fail are named; the others run
 /// anyway.
 Result<int> rerunMany(const RerunCommand& command) {
-  if (!command.out.empty() || !command.report.empty() || !command.check.empty() || command.same) {
+  if (!command.out.empty() || !command.report.empty() || !command.check.empty() || command.same ||
+      command.watch) {
     return failure(ErrorCode::InvalidArgument,
-                   "--out, --report, --check and --same take one recording; leave them out, or "
-                   "name one.");
+                   "--out, --report, --check, --same and --watch take one recording; leave them "
+                   "out, or name one.");
   }
   const InterruptGuard signals;
   std::vector<RerunOfMany> all(command.sessions.size());
@@ -267,6 +317,9 @@ void addRerunCommand(CLI::App& parent, int& exitCode) {
       ->needs(command->get_option("--check"));
   command->add_flag("--same", o.same,
                     "Run the unchanged program: what differs now is left out of later reruns");
+  command->add_flag("--watch", o.watch,
+                    "Run again whenever the program's file, or a .py file beside it, changes, and "
+                    "compare with the last run, too; Ctrl+C ends");
   command->add_flag("--ignore-same", o.ignoreSame, "Compare also what --same found");
   addForce(*command, o.force, "Replace existing files");
   command->add_flag("--json", o.json, "Print the result as a JSON object, one for each recording");
@@ -304,7 +357,8 @@ void addRerunCommand(CLI::App& parent, int& exitCode) {
   addGroup(*command, "Programs", {"--writes", "--catalog", "--match", "--robot-program"});
   whenChosen(*command, options, exitCode, [](RerunCommand& chosen) {
     chosen.session = chosen.sessions.front();
-    return chosen.sessions.size() == 1 ? rerunSession(chosen) : rerunMany(chosen);
+    if (chosen.sessions.size() > 1) return rerunMany(chosen);
+    return chosen.watch ? rerunWatching(chosen) : rerunOnce(chosen);
   });
 }
 

@@ -81,7 +81,13 @@ Result<link::Scenario> withRuntimes(link::Scenario scenario, const RobotsOptions
     const auto choice = link::runtimeChoiceFromText(named ? text.substr(equals + 1) : text);
     if (!choice) return failure(choice.error().code, choice.error().message, "--runtime");
     if (const auto profile = link::loadRuntime(*choice); !profile) {
-      return failure(profile.error().code, profile.error().text(), "--runtime");
+      // As it has to be written here, with the robot in front.
+      std::string said = profile.error().text();
+      constexpr std::string_view advice = "write program=";
+      if (const std::size_t at = said.find(advice); named && at != std::string::npos) {
+        said.insert(at + advice.find("program"), who + '=');
+      }
+      return failure(profile.error().code, said, "--runtime");
     }
     if (team != teamColors.end()) {
       scenario.runtimes[team->color] = *choice;

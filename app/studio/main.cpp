@@ -184,10 +184,10 @@ Result<void> checkRecordFolder(const Arguments& arguments) {
   if (arguments.record.empty()) return {};
   const QDir folder = QFileInfo(QString::fromStdString(arguments.record)).dir();
   if (folder.mkpath(QStringLiteral(".")) && QFileInfo(folder.path()).isWritable()) return {};
-  return failure(
-      ErrorCode::SystemError,
-      "cannot create a file in the folder " + folder.path().toStdString() + ". Choose another one",
-      "--record");
+  return failure(ErrorCode::SystemError,
+                 "cannot create files in the folder " + folder.path().toStdString() +
+                     "; choose another folder",
+                 "--record");
 }
 
 int showWindow(QApplication& application, const Arguments& arguments,

@@ -198,7 +198,9 @@ class Live {
   explicit Live(link::LiveOptions options = {})
       : m_path(file("pitchboard-growth-live.mcap")), m_pipeline(options, telemetry::WallTime{}) {
     std::filesystem::remove(m_path);
-    m_recorder = must(link::LiveRecorder::create(m_path, options, telemetry::WallTime{}));
+    const link::RecorderOptions recording;
+    m_recorder =
+        must(link::LiveRecorder::create(m_path, options, telemetry::WallTime{}, recording));
     m_pipeline.observe(m_recorder, telemetry::WallTime{});
   }
   void receive(int robot, const std::string& text, bool isVariables) {

@@ -30,14 +30,17 @@ struct SourceFile {
 inline QStringList all(const QString& library) {
   static const QHash<QString, QStringList> modules{
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
-      {"telemetry", {"wire", "pb2", "series", "expression", "mcap", "session", "recordings"}},
+      {"telemetry",
+       {"wire", "pb2", "series", "expression", "mcap", "session", "recordings", "foxglove",
+        "statistics", "query"}},
       {"robotlink",
-       {"blackboard", "processes", "models", "cognition", "rollout", "scenario", "frame", "match",
-        "live", "session", "import", "report", "experiment", "learn", "calibrate", "conformance",
-        "capi", "explore", "rerun"}},
+       {"blackboard", "processes", "models",      "cognition", "rollout", "scenario", "frame",
+        "match",      "live",      "session",     "import",    "report",  "serve",    "experiment",
+        "learn",      "calibrate", "conformance", "capi",      "explore", "rerun"}},
       {"ui",
        {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "window"}}};
+        "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "rerun",
+        "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
@@ -73,6 +76,13 @@ inline const QList<Module>& table() {
         {"telemetry/recordings",
          {base, wire, "telemetry/mcap"},
          {"google/protobuf/", "nlohmann/", "sqlite3.h", "yaml-cpp/"}},
+        // The only one with Beast.
+        {"telemetry/foxglove", {base, wire}, {"boost/", "netdb.h", "nlohmann/"}},
+        {"telemetry/statistics", {base, series}, {"Eigen/", "boost/", "unsupported/"}},
+        {"telemetry/query",
+         {base, series, "telemetry/expression", "telemetry/session", "telemetry/mcap",
+          "telemetry/statistics"},
+         {}},
         {board, {base, world, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
@@ -87,7 +97,8 @@ inline const QList<Module>& table() {
          all("simcore") + QStringList{wire, board, processes, models, cognition, scenario, frame},
          {}},
         {live,
-         {base, world, simulation, "telemetry/pb2", wire, series, board, models, frame},
+         {base, world, simulation, "telemetry/foxglove", "telemetry/pb2", "telemetry/recordings",
+          wire, series, board, models, frame},
          {"nlohmann/"}},
         {session,
          below + QStringList{board, processes, cognition, scenario, frame, match, live},
@@ -97,7 +108,11 @@ inline const QList<Module>& table() {
          {"nlohmann/"}},
         // It plays beliefs, not matches.
         {rollout, {base, world, cognition, scenario}, {}},
-        {"robotlink/report", below + QStringList{frame, session}, {"boost/"}},
+        {"robotlink/report", below + QStringList{frame, session}, {}},
+        {"robotlink/serve",
+         {base, world, simulation, series, wire, "telemetry/foxglove", "telemetry/session", frame,
+          match, live, session},
+         {"nlohmann/"}},
         {"robotlink/experiment",
          below + QStringList{board, processes, models, cognition, scenario, frame, match, session,
                              "robotlink/report", "resources"},
@@ -113,8 +128,8 @@ inline const QList<Module>& table() {
          all("simcore") + QStringList{board, processes, cognition, scenario, frame, match},
          {"nlohmann/", "zlib.h"}},
         {"robotlink/capi",
-         {base, world, simulation, series, "telemetry/session", board, processes, models, cognition,
-          rollout, scenario, match, session},
+         {base, world, simulation, series, "telemetry/session", "telemetry/statistics", board,
+          processes, models, cognition, rollout, scenario, match, session},
          {"nlohmann/"}},
         {"robotlink/explore",
          {base, world, cognition, models, rollout, scenario, frame, session},
@@ -129,8 +144,8 @@ inline const QList<Module>& table() {
         {"app/robot",
          {base, world, wire, board, processes, models, cognition, "app/shared"},
          {"CLI/"}},
-        // For the robot's computer: one small static program without packages.
-        {"app/agent", {base, "telemetry/pb2", wire, board}, {}},
+        // For the robot's computer: one small static program, of a few files of these.
+        {"app/agent", {base, "telemetry/pb2", "telemetry/session", wire, board, live}, {}},
         {"app/cli", belowUi + QStringList{"app/shared"}, {"CLI/", "nlohmann/"}},
         {"app/studio",
          belowUi + QStringList{"ui/base", "ui/sources", "ui/field", "ui/session", "ui/window",

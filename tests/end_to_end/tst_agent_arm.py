@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """tst_agent_arm.py SOURCE: builds pitchboard-agent for ARM processors and runs it under qemu-user.
 
-Every value of the blackboard must arrive to the last bit. Ends with 77, and a reason, where the cross compilers or
+Every value of the blackboard must arrive to the last bit, and a recording must be a whole file. Ends with 77, and a reason, where the cross compilers or
 qemu-user are not installed (scripts/packages-agent.txt).
 """
 import json
@@ -11,6 +11,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -19,7 +20,7 @@ sys.path.insert(0, str(SOURCE / "scripts"))
 from agent_cost import FLOAT_OFFSET, WORDS, Segment, listener, own_key  # noqa: E402
 
 PROCESSORS = {"arm64": ("aarch64-linux-gnu-g++", "qemu-aarch64"), "armhf": ("arm-linux-gnueabihf-g++", "qemu-arm")}
-MOST_BYTES = 2_000_000
+MOST_BYTES = 3_000_000
 
 
 def words_of(message, types):
@@ -43,8 +44,10 @@ def check(name, qemu):
     for word in range(WORDS):
         number = numbers.getrandbits(32)
         segment.words[word] = number if number & 0x7f800000 != 0x7f800000 else 0x3dcccccd  # no nan
+    folder = tempfile.TemporaryDirectory()
+    flight = Path(folder.name) / "flight.mcap"
     agent = subprocess.Popen([qemu, str(program), "--robot", "3", "--key", str(segment.key), "--rate", "50",
-                              "--to", "127.0.0.1:%d" % ears.getsockname()[1]])
+                              "--record", str(flight), "--to", "127.0.0.1:%d" % ears.getsockname()[1]])
     try:
         ears.settimeout(60)
         seen = {}
@@ -62,10 +65,16 @@ def check(name, qemu):
             assert time.monotonic() < deadline, "the new blackboard was not read"
             seen.update(words_of(ears.recv(2000).decode(), types))
         assert agent.poll() is None
+        agent.terminate()
+        assert agent.wait(60) == 0
+        recorded = flight.read_bytes()
+        magic = b"\x89MCAP0\r\n"
+        assert recorded.startswith(magic) and recorded.endswith(magic) and b"zstd" in recorded, len(recorded)
     finally:
         agent.kill()
         agent.wait()
         segment.remove()
+        folder.cleanup()
     print("%s: %d values under %s, %d bytes" % (name, len(seen), qemu, size))
 
 

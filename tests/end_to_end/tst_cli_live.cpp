@@ -248,7 +248,7 @@ class TestCliLive : public QObject {
     QCOMPARE(received.value(1)["type"].toString(), "telemetry");
     QVERIFY(received.value(1)["errors"].toArray().isEmpty());
     QCOMPARE(listener.interrupt(), 0);
-    QVERIFY2(listener.err.contains("2 datagrams from 1 robots") && listener.err.contains("bad: 0"),
+    QVERIFY2(listener.err.contains("2 datagrams from 1 robot;") && listener.err.contains("bad: 0"),
              listener.err.constData());
     const Outcome outcome = run({"decode", "telemetry", "--json", "-"},
                                 QByteArray::fromStdString(words) + "\nPBD1 1\n");

@@ -7,6 +7,7 @@
 #include <QtTest>
 
 #include <cmath>
+#include <csignal>
 #include <set>
 
 #include "../support/guide_programs.h"
@@ -188,6 +189,62 @@ class TestCliRerun : public QObject {
     const ProgramRun refused = cli({"rerun", path("match.mcap"), path("copy.mcap"), "--robot", "B1",
                                     "--process", "decision=naive", "--out", path("x.mcap")});
     QVERIFY2(refused.exitCode == 2 && refused.err.contains("--out"), refused.err.constData());
+  }
+
+  /// Editors let another file take the name, or write it in parts.
+  void watchRunsAgainWhenTheProgramChanges() {
+    const auto replace = [this](const QByteArray& text) {
+      write("watched.new", text);
+      QVERIFY(::rename(qPrintable(path("watched.new")), qPrintable(path("watched.py"))) == 0);
+    };
+    replace(example("ball_robot.py"));
+    QProcess process;
+    process.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli"),
+                  {"rerun", path("match.mcap"), "--robot", "B1", "--process",
+                   "decision=" + path("watched.py"), "--watch", "--out", path("watched.mcap")});
+    QByteArray out, err;
+    const auto saw = [&](QByteArray& all, const QByteArray& text, int count) {
+      return QTest::qWaitFor(
+          [&] {
+            process.waitForReadyRead(20);
+            out += process.readAllStandardOutput();
+            err += process.readAllStandardError();
+            return all.count(text) >= count || process.state() == QProcess::NotRunning;
+          },
+          120'000);
+    };
+    QVERIFY(saw(err, "Waiting for a change", 1));
+    QVERIFY2(out.contains("No value differs."), (out + err).constData());
+    QVERIFY(!out.contains("Since the last run"));
+
+    QByteArray changed = example("ball_robot.py");
+    changed.replace("KICK_DISTANCE = 25", "KICK_DISTANCE = 35");
+    replace(changed);
+    QVERIFY(saw(err, "Waiting for a change", 2));
+    QVERIFY2(err.contains("watched.py has changed."), err.constData());
+    QVERIFY2(out.contains("Since the last run, "), out.constData());
+    QVERIFY(out.mid(out.indexOf("Since the last run")).contains("DECISION_ACTION_A"));
+    QVERIFY(QFile::exists(path("watched.mcap")));
+
+    // One that breaks is reported; the next one is compared with the last that ran.
+    replace("import sys\nsys.exit('no idea')\n");
+    QVERIFY(saw(err, "Waiting for a change", 3));
+    QVERIFY2(err.contains("no idea"), err.constData());
+    replace(changed);
+    QVERIFY(saw(err, "Waiting for a change", 4));
+    QVERIFY2(out.contains("Since the last run: no difference."), out.constData());
+
+    QCOMPARE(::kill(static_cast<pid_t>(process.processId()), SIGINT), 0);
+    QVERIFY(process.waitForFinished(30'000));
+    QCOMPARE(process.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(process.exitCode(), 0);
+    const ProgramRun ours = rerun({"--process", "decision=reference", "--watch"});
+    QCOMPARE(ours.exitCode, 2);
+    QVERIFY2(ours.err.contains("no file to watch") || ours.err.contains("behaviour"),
+             ours.err.constData());
+    const ProgramRun same =
+        rerun({"--process", "decision=" + path("watched.py"), "--watch", "--same"});
+    QVERIFY2(same.exitCode == 2 && same.err.contains("--same"), same.err.constData());
   }
 
   void mistakesAreNamed_data() {

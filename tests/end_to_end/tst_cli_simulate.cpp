@@ -106,7 +106,7 @@ class TestCliSimulate : public QObject {
   void aMatchWithoutOrdersToPlayPrintsAWarning() {
     const Run idle = simulate({"--scenario", "match", "--referee", "published", "--duration", "6"});
     QCOMPARE(idle.exitCode, 0);
-    QVERIFY2(idle.err.contains("no robot was told to"), idle.err.constData());
+    QVERIFY2(idle.err.contains("none was told to"), idle.err.constData());
     for (const char* scenario : {"match", "match-3v3", "empty"}) {
       const Run played = simulate({"--scenario", scenario, "--duration", "6"});
       QVERIFY2(played.exitCode == 0 && !played.err.contains("told to"), played.err.constData());

@@ -91,6 +91,30 @@ class TestCliUsage : public QObject {
     QVERIFY2(lines[1].startsWith("Run \"pitchboard-cli"), run.err.constData());
   }
 
+  void mistypedProcessesAreNamed() {
+    const auto errorOf = [](const QStringList& words) {
+      const ProgramRun run = runProgram("pitchboard-robot", words);
+      return run.exitCode == 2 ? QString::fromUtf8(run.err.split('\n')[0]) : QString();
+    };
+    QCOMPARE(errorOf({"decide"}),
+             QString("error: there is no command \"decide\"; did you mean \"decision\"?"));
+    QCOMPARE(
+        errorOf({"localisation", "--robot", "1"}),
+        QString("error: there is no command \"localisation\"; did you mean \"localization\"?"));
+    const QString other = errorOf({"play"});
+    for (const char* name : {"decision", "localization", "management", "list"}) {
+      QVERIFY2(other.contains(name), qPrintable(other));
+    }
+  }
+
+  void missingProgramsAreExplained() {
+    const ProgramRun run =
+        runProgram("pitchboard-cli", {"simulate", "--scenario", "one-robot", "--runtime",
+                                      "B1=no_such_chase.py", "--duration", "1"});
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.contains("write B1=program=./no_such_chase.py"), run.err.constData());
+  }
+
   void helpFitsOnAScreen_data() {
     QTest::addColumn<QByteArray>("program");
     QTest::addColumn<QStringList>("words");

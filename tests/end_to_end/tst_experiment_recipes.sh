@@ -40,6 +40,12 @@ expect 2 "holds results; add --resume" experiment short.json --out whole
 expect 0 "as in the results" experiment replay whole --run 5 -o five.mcap
 expect 0 "B1" inspect five.mcap
 expect 2 "there is no run 7" experiment replay whole --run 7
+# The report alone, after somebody has removed it; of a folder without results there is none.
+cp whole/report.html report-before.html && rm whole/report.html whole/runs.csv
+expect 0 "holds   as the scenario: success_rate == 1 (success_rate = 1)" experiment report whole
+cmp whole/report.html report-before.html || fail "the report differs from the first one"
+[ -s whole/runs.csv ] || fail "runs.csv was not written"
+expect 2 "is this the folder of an experiment" experiment report no-such-folder
 expect 2 "--shard must be i/n" experiment short.json --out x --shard 3/2
 sed 's/"time_s == 5"/"goal"/' short.json > bad.json
 expect 1 "FAILED  as the scenario: success_rate == 1 (success_rate = 0)" experiment bad.json --out bad
@@ -111,6 +117,7 @@ done
 expect 0 "whole" experiment merge array/shard-1 array/shard-2 --out whole-array
 same whole whole-array
 expect 2 "a shard is missing" experiment merge array/shard-1 --out half
+expect 2 "of 6 runs have ended; play the others" experiment report array/shard-1
 
 # Interrupted after the first runs have ended, then resumed: the same bytes.
 sed 's/"runs": 6/"runs": 400/; s/"record": \[2\],//; s/"duration": 5/"duration": 60/; s/time_s == 5/time_s == 60/' \

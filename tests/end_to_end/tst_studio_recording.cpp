@@ -148,9 +148,9 @@ class TestStudioRecording : public QObject {
     QTest::newRow("a session") << QStringList{QStringLiteral("--record"), QStringLiteral("a.mcap"),
                                               QStringLiteral("b.mcap")}
                                << QByteArray("b.mcap is a recording already");
-    QTest::newRow("a folder") << QStringList{QStringLiteral("--record"),
-                                             QStringLiteral("/proc/none/a.mcap")}
-                              << QByteArray("Choose another one");
+    QTest::newRow("a folder")
+        << QStringList{QStringLiteral("--record"), QStringLiteral("/proc/none/a.mcap")}
+        << QByteArray("cannot create files in the folder /proc/none; choose another");
   }
   void whatCannotBeRecordedIsReported() {
     QFETCH(QStringList, arguments);

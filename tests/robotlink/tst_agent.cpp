@@ -15,9 +15,13 @@
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <telemetry/pb2/pb2.h>
+#include <telemetry/session/session_reader.h>
 
+#include "../support/program_run.h"
 #include "../support/sanitized.h"
 #include "../support/segment_keys.h"
+#include "../support/session_values.h"
+#include "../support/small_disk.h"
 #include "../support/test_socket.h"
 
 namespace tst_agent {
@@ -62,6 +66,18 @@ class Agent {
   }
   QString reported() { return m_printed += QString::fromUtf8(m_process.readAllStandardError()); }
   bool runs() const { return m_process.state() == QProcess::Running; }
+  /// As kill -9, or the switch of the robot.
+  void kill() {
+    m_process.kill();
+    m_process.waitForFinished();
+  }
+  /// As systemd ends it. Returns the exit code.
+  int end() {
+    m_process.terminate();
+    return m_process.waitForFinished() && m_process.exitStatus() == QProcess::NormalExit
+               ? m_process.exitCode()
+               : -1;
+  }
   qint64 process() const { return m_process.processId(); }
   const TestSocket& socket() const { return m_socket; }
 
@@ -74,6 +90,28 @@ class Agent {
   QProcess m_process;
   QString m_printed;
 };
+
+using Clock = std::chrono::steady_clock;
+
+struct RecordedValue {
+  Clock::time_point at;
+  int value = 0;
+};
+
+/// The values of a variable in a recording of the agent, each once, with the robot's time.
+std::vector<RecordedValue> recorded(const telemetry::SessionReader& session, const char* name) {
+  std::vector<RecordedValue> values;
+  const std::int64_t zero_us = std::stoll(session.info().more.at("clock_us"));
+  session.rows({-1e18, 1e18}, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
+    const auto& info = session.groups()[group].info;
+    const int value = int(telemetry::valueOf(info, row, telemetry::columnOf(info, name)));
+    if (!values.empty() && values.back().value == value) return true;
+    const auto since = std::chrono::microseconds(zero_us + std::llround(row.time * 1e6));
+    values.push_back({Clock::time_point(since), value});
+    return true;
+  });
+  return values;
+}
 
 /// A program that uses the segment (tests/support/segment_user.cpp).
 class User {
@@ -263,13 +301,131 @@ class TestAgent : public QObject {
     }
   }
 
+  // What is sent was read, so it must be recorded, too.
+  void killedItHasAllButTheLastSecond_data() {
+    QTest::addColumn<QString>("rate");
+    for (const char* rate : {"100", "500"}) QTest::newRow(rate) << rate;
+  }
+  void killedItHasAllButTheLastSecond() {
+    QFETCH(QString, rate);
+    QTemporaryDir folder;
+    const QString path = folder.filePath("flight.mcap");
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    Agent agent({"--key", QString::number(m_key), "--rate", "100", "--record", path,
+                 "--record-rate", rate});
+    std::vector<Clock::time_point> read{Clock::now()};
+    const auto from = Clock::now();
+    for (int value = 1; Clock::now() < from + std::chrono::seconds(3); ++value) {
+      board->write(IntVar{17}, value);
+      QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", value));
+      read.push_back(Clock::now());
+    }
+    agent.kill();
+    const auto killed = Clock::now();
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session && session->ours() && !session->complete() && !session->isDamaged());
+    const auto values = recorded(*session, "DECISION_ACTION_A");
+    QVERIFY(read.size() > 50 && !values.empty());
+    const int first = values.front().value;
+    QVERIFY(first <= 1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      QCOMPARE(values[i].value, first + int(i));  // each, in order
+      QVERIFY(values[i].at <= read[std::size_t(values[i].value)]);
+    }
+    std::size_t safe = 0;
+    while (safe < read.size() && read[safe] < killed - std::chrono::seconds(1)) ++safe;
+    QVERIFY2(values.back().value + 1 >= int(safe), qPrintable(QString::number(read.size())));
+  }
+
+  void aFullDiskEndsTheRecordingAndNotTheSending() {
+    QTemporaryDir folder;
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    std::optional<SmallDisk> disk(std::in_place, rlim_t{120'000});
+    Agent agent({"--key", QString::number(m_key), "--rate", "100", "--record",
+                 folder.filePath("flight.mcap")});
+    QTRY_VERIFY(agent.reported().contains("recording to"));
+    disk.reset();
+    std::uint32_t value = 1;
+    const auto busy = [&] {
+      for (int i = 0; i < 120; ++i) {
+        value = value * 1664525U + 1013904223U;
+        board->write(FloatVar{i}, static_cast<float>(value >> 8));
+      }
+      return agent.take() && agent.reported().contains("Recording stopped.");
+    };
+    QTRY_VERIFY(busy());
+    board->write(IntVar{17}, 42);
+    QTRY_VERIFY(agent.hasLast("DECISION_ACTION_A", 42));
+    QVERIFY(agent.runs());
+    QCOMPARE(agent.reported().count("Recording stopped."), 1);
+    const auto session =
+        telemetry::SessionReader::open(folder.filePath("flight.mcap").toStdString());
+    QVERIFY(session && session->ours() && session->groups()[0].rows > 10);
+  }
+
+  // Without a network, and with a blackboard that is made again; as a service ends it.
+  void itRecordsAloneAndEndsItsFile() {
+    QTemporaryDir folder;
+    const QString path = folder.filePath("flight.mcap");
+    QProcess agent;
+    agent.start(
+        QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+        {"--robot", "3", "--key", QString::number(m_key), "--to", "none", "--record", path});
+    QByteArray reported;
+    const auto says = [&](const char* text) {
+      reported += agent.readAllStandardError();
+      return reported.contains(text);
+    };
+    const auto has = [&](int value) {  // in the file while it grows
+      const auto session = telemetry::SessionReader::open(path.toStdString());
+      if (!session || session->groups().empty()) return false;
+      const auto values = recorded(*session, "DECISION_ACTION_A");
+      return !values.empty() && values.back().value == value;
+    };
+    QTRY_VERIFY(says("waiting for blackboard"));
+    for (const int value : {1, 2}) {
+      auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+      QVERIFY(board && board->created());
+      board->write(IntVar{17}, value);
+      QTRY_VERIFY(has(value));
+    }  // removes it
+    agent.terminate();
+    QVERIFY(agent.waitForFinished());
+    QCOMPARE(agent.exitStatus(), QProcess::NormalExit);
+    QCOMPARE(agent.exitCode(), 0);
+    const auto session = telemetry::SessionReader::open(path.toStdString());
+    QVERIFY(session && session->complete());
+    std::vector<int> values;
+    for (const auto& one : recorded(*session, "DECISION_ACTION_A")) values.push_back(one.value);
+    std::erase(values, 0);
+    QVERIFY((values == std::vector<int>{1, 2}));
+    QVERIFY(session->count(telemetry::SessionStream::Log) >= 2);
+  }
+
+  void aFileThatExistsIsRefused() {
+    QTemporaryDir folder;
+    QFile file(folder.filePath("flight.mcap"));
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    const ProgramRun run = runProgram(
+        "pitchboard-agent", {"--robot", "3", "--to", "127.0.0.1", "--record", file.fileName()});
+    QCOMPARE(run.exitCode, 2);
+    QVERIFY2(run.err.contains("this file exists; choose another name"), run.err.constData());
+    QCOMPARE(QFileInfo(file.fileName()).size(), 0);
+    const ProgramRun nowhere = runProgram(
+        "pitchboard-agent", {"--robot", "3", "--to", "none", "--record", "/none/flight.mcap"});
+    QCOMPARE(nowhere.exitCode, 2);
+    QVERIFY2(nowhere.err.contains("The folder does not exist"), nowhere.err.constData());
+  }
+
   void itIsOneSmallStaticProgram() {
 #if PITCHBOARD_SANITIZED
     QSKIP("with sanitizers it is neither");
 #endif
     QFile program(PITCHBOARD_BIN "/pitchboard-agent");
     QVERIFY(program.open(QIODevice::ReadOnly));
-    QVERIFY2(program.size() < 2'000'000, qPrintable(QString::number(program.size())));
+    QVERIFY2(program.size() < 3'000'000, qPrintable(QString::number(program.size())));
     const QByteArray elf = program.readAll();
     const auto* const head = reinterpret_cast<const Elf64_Ehdr*>(elf.constData());
     const auto* const parts = reinterpret_cast<const Elf64_Phdr*>(elf.constData() + head->e_phoff);
@@ -292,6 +448,33 @@ class TestAgent : public QObject {
     const auto found = most.match(QString::fromUtf8(status.readAll()));
     QVERIFY(found.hasMatch());
     QVERIFY2(found.captured(1).toInt() <= 4096, qPrintable(found.captured()));
+  }
+
+  // With every variable changing at 500 Hz.
+  void recordingTakesLittleMemory() {
+#if PITCHBOARD_SANITIZED
+    QSKIP("with sanitizers it takes more");
+#endif
+    QTemporaryDir folder;
+    auto board = SystemVSegments::open(m_key, AttachMode::AttachOrCreate);
+    QVERIFY(board);
+    Agent agent({"--key", QString::number(m_key), "--rate", "100", "--record",
+                 folder.filePath("flight.mcap"), "--record-rate", "500"});
+    int value = 0;
+    const auto busy = [&] {
+      ++value;
+      for (int i = 0; i < 80; ++i) board->write(IntVar{i}, value);
+      for (int i = 0; i < 120; ++i) board->write(FloatVar{i}, 0.1F * static_cast<float>(value));
+      return agent.take() && agent.datagrams > 2000;
+    };
+    QTRY_VERIFY(busy());
+    QFile status(QStringLiteral("/proc/%1/status").arg(agent.process()));
+    QVERIFY(status.open(QIODevice::ReadOnly));
+    static const QRegularExpression most("VmHWM:\\s+(\\d+) kB");
+    const auto found = most.match(QString::fromUtf8(status.readAll()));
+    QVERIFY(found.hasMatch());
+    QVERIFY2(found.captured(1).toInt() <= 12'288, qPrintable(found.captured()));
+    QCOMPARE(agent.end(), 0);
   }
 
  private:

@@ -268,6 +268,17 @@ class TestAgentSchedule : public QObject {
     QCOMPARE(read->receivers.size(), std::size_t{2});
     QVERIFY(read->receivers[0].address.value == 0x0a000001 && !read->receivers[0].port);
     QVERIFY(read->receivers[1].address.value == 0xffffffff && read->receivers[1].port == 9);
+    QVERIFY(read->sends && read->record.empty() && read->readRate() == 50.0);
+    const char* const record[] = {"--robot",           "7",   "--record",      "a.mcap",
+                                  "--record-rate",     "500", "--record-size", "50",
+                                  "--record-keep=1000"};
+    const auto recording = parseArguments(record);
+    QVERIFY(recording && recording->sends && recording->record == "a.mcap");
+    QVERIFY(recording->recordSize == 50.0 && recording->recordKeep == 1000.0);
+    QVERIFY(recording->readRate() == 500.0 && recording->rate == 20.0);
+    const char* const alone[] = {"--robot", "7", "--to", "none", "--record", "a.mcap"};
+    const auto silent = parseArguments(alone);
+    QVERIFY(silent && !silent->sends && silent->receivers.empty() && silent->readRate() == 100.0);
     const char* const least[] = {"--robot", "1"};
     QVERIFY(parseArguments(least)->receivers[0].address.value == 0xffffffff);
   }
@@ -289,6 +300,13 @@ class TestAgentSchedule : public QObject {
     row({"--robot", "1", "--to", "10.0.0.1:0"}, "the port of --to must be 1 to 65535");
     row({"--robot", "1", "--to", "10.0.0.1:"}, "the port of --to");
     row({"--robot", "1", "--variables", "A,,B"}, "empty name");
+    row({"--robot", "1", "--to", "none"}, "add --record FILE");
+    row({"--robot", "1", "--to", "none", "--to", "10.0.0.1", "--record", "a.mcap"}, "another --to");
+    row({"--robot", "1", "--record", ""}, "--record needs the name");
+    row({"--robot", "1", "--record", "a.mcap", "--record-rate", "501"}, "1 to 500 Hz");
+    row({"--robot", "1", "--record", "a.mcap", "--record-size", "0"}, "1 to 1000000 MB");
+    row({"--robot", "1", "--record", "a", "--record-keep", "199"}, "at least twice --record-size");
+    row({"--robot", "1", "--record-rate", "50"}, "add --record FILE");
     row({"--robot", "1", "--frobnicate"}, "no option \"--frobnicate\"");
     row({"1"}, "no option \"1\"");
   }

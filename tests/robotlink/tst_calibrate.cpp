@@ -195,7 +195,7 @@ class TestCalibrate : public QObject {
       QVERIFY(calibration->kept.contains("vision_range"));
     }
     if (what == "gap") QVERIFY(calibration->leftOut.contains("gaps"));
-    if (what == "IMU reset") QVERIFY(mentions(*calibration, "IMU was reset"));
+    if (what == "IMU reset") QVERIFY(mentions(*calibration, "Resets of the IMU"));
     if (what == "carried") QVERIFY(mentions(*calibration, "outliers"));
   }
 

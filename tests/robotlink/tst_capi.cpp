@@ -244,7 +244,7 @@ class TestCapi : public QObject {
       QCOMPARE(names, recorded[static_cast<std::size_t>(array)]);
     }
     QCOMPARE(pb_column_count(7), std::size_t{0});
-    QCOMPARE(pb_api_version(), 3);
+    QCOMPARE(pb_api_version(), 4);
   }
 
   void aNewBeginningIsLikeANewMatch() {

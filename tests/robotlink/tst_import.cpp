@@ -183,7 +183,7 @@ class TestImport : public QObject {
     QVERIFY2(again, again ? "" : again.error().text().c_str());
     QVERIFY(*again == mapping);
     const auto readers = telemetry::openRecordings({recording("robot_walks.mcap")}).value();
-    const ImportMapping usual = builtInMapping(readers.front()->topics());
+    const TopicMapping usual = builtInMapping(readers.front()->topics());
     const auto usualAgain = mappingFromJson(mappingText(usual), "usual.json");
     QVERIFY2(usualAgain, usualAgain ? "" : usualAgain.error().text().c_str());
     QVERIFY(*usualAgain == usual);

@@ -160,9 +160,9 @@ class TestRerunPrograms : public QObject {
     const auto session = opened(recordWith(program, "none"));
     RerunOptions options = optionsOf(program);
     options.match = 41;
-    const int key = blackboardKey(RobotId{1}, MatchNumber{41}.keyBase());
+    constexpr int key = blackboardKey(RobotId{1}, MatchNumber{41}.keyBase());
     options.speed = 2.0;
-    options.progress = [key](double part) {
+    options.progress = [](double part) {
       const int shmid = shmget(key, 0, 0);
       if (part > 0.05 && shmid >= 0) shmctl(shmid, IPC_RMID, nullptr);
       return true;

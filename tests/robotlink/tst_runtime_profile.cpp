@@ -192,6 +192,9 @@ class TestRuntimeProfile : public QObject {
     QVERIFY(writeFile(program, "print()", IfExists::Refuse).has_value());
     QCOMPARE(loadRuntime(choice(program.c_str())).error().text(),
              program + ": is not a runtime profile; if it is a program, write program=" + program);
+    const std::string missing = loadRuntime(choice("no_such_chase.py")).error().text();
+    QVERIFY2(missing.ends_with(" If it is a program, write program=./no_such_chase.py"),
+             missing.c_str());
     QCOMPARE(runtimeChoiceFromText("program:chase.py").error().text(),
              std::string("write program=chase.py"));
   }

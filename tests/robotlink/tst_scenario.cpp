@@ -296,6 +296,17 @@ class TestScenario : public QObject {
     row("deep", std::string(100, '['), "my.json:1: nested deeper than 64 levels");
     row("large", std::string(32 * 1024 * 1024 + 1, ' '),
         "my.json:1: larger than 32 MiB, the most that is read");
+    const auto write = [&](const char* name, const char* variable, const char* value,
+                           const char* error) {
+      row(name,
+          "{\"version\":1,\"writes\":[{\"variable\":\"" + std::string(variable) +
+              "\",\"value\":" + value + "}]}",
+          ("my.json:1: writes[0].value: must be a number" + std::string(error)).c_str());
+    };
+    write("label of a code", "COM_REFEREE", "\"play\"", "; write 2 for \"play\"");
+    write("mistyped label", "COM_REFEREE", "\"plai\"",
+          "; there is no code \"plai\"; did you mean \"play\"?");
+    write("text", "VISION_BALL_DIST", "\"far\"", "");
     row("stop", "{\"version\":1,\"stop\":{\"duration\":0}}",
         "my.json:1: stop.duration: must lie between 0.001 and 1000000 seconds");
   }

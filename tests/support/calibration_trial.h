@@ -143,25 +143,34 @@ inline void comparePredictions(const telemetry::SeriesStore& rows, std::size_t s
   }
 }
 
-/// Two recordings (calibration-drill and calibration-kicks) of the robot number `seed`; of the
-/// drill only if `kickSeconds` is 0.
+/// A scenario that a trial records, and for how long (s); 0: as long as the scenario says.
+struct TrialPart {
+  std::string scenario;
+  double seconds = 0.0;
+};
+
+/// A recording of each part, of the robot number `seed`. All other robots are of the base model.
 inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed,
-                                                     double kickSeconds = 240.0) {
+                                                     const std::vector<TrialPart>& parts) {
   const auto base = loadRobotModel("kid-size");
   if (!base) return tl::unexpected(base.error());
   CalibrationTrial trial;
   trial.hidden = hiddenModel(*base, seed, trial.rolling);
   std::vector<CalibrationLog> logs;
   std::vector<std::shared_ptr<telemetry::SeriesStore>> played;
-  for (const std::string name : {"calibration-drill", "calibration-kicks"}) {
-    if (name == "calibration-kicks" && kickSeconds <= 0.0) continue;
-    auto scenario = loadScenario(name);
+  for (const auto& [name, seconds] : parts) {
+    const auto asWritten = loadScenario(name);
+    if (!asWritten) return tl::unexpected(asWritten.error());
+    ScenarioOverrides overrides;
+    overrides.noise = "robot";
+    auto scenario = changed(*asWritten, overrides);
     if (!scenario) return tl::unexpected(scenario.error());
-    // The noise of a tick depends on the seed alone: both recordings would have the same.
-    scenario->settings.seed = seed + (name == "calibration-kicks" ? 1'000'000 : 0);
+    // The noise of a tick depends on the seed alone: all recordings would have the same.
+    scenario->settings.seed = seed + 1'000'000 * played.size();
     scenario->settings.field.surface.deceleration = trial.rolling;
+    for (ScenarioRobot& robot : scenario->robots) robot.model = *base;
     scenario->robots.front().model = trial.hidden;
-    if (name == "calibration-kicks") scenario->stop.duration = kickSeconds;
+    if (seconds > 0.0) scenario->stop.duration = seconds;
     auto rows = recorded(*scenario);
     if (!rows) return tl::unexpected(rows.error());
     played.push_back(*rows);
@@ -177,6 +186,14 @@ inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed,
   trial.calibration = std::move(*calibration);
   for (std::size_t i = 0; i < played.size(); ++i) comparePredictions(*played[i], i, trial);
   return trial;
+}
+
+/// The drill, and kicks for `kickSeconds` unless it is 0.
+inline Result<CalibrationTrial> playCalibrationTrial(std::uint64_t seed,
+                                                     double kickSeconds = 240.0) {
+  std::vector<TrialPart> parts{{"calibration-drill"}};
+  if (kickSeconds > 0.0) parts.push_back({"calibration-kicks", kickSeconds});
+  return playCalibrationTrial(seed, parts);
 }
 
 /// Sums over trials.

@@ -65,10 +65,12 @@ class TestRecordingHealth : public QObject {
     QCOMPARE(freeSpaceText(SessionStatus()), std::string());
     QCOMPARE(freeSpaceText(status(52.34, 0.0)), std::string("52.3 GB free"));
     QCOMPARE(freeSpaceText(status(0.4, 0.0)), std::string("400 MB free"));
-    QCOMPARE(freeSpaceText(status(12.0, 1e6)), std::string("room for 3 h 20 min"));
-    QCOMPARE(freeSpaceText(status(0.06, 1e6)), std::string("room for 1 min"));
-    QCOMPARE(freeSpaceText(status(0.05, 1e6)), std::string("room for less than a minute"));
-    QCOMPARE(freeSpaceText(status(500.0, 1e6)), std::string("room for more than 2 days"));
+    QCOMPARE(freeSpaceText(status(12.0, 1e6)), std::string("3 h 20 min until the disk is full"));
+    QCOMPARE(freeSpaceText(status(0.06, 1e6)), std::string("1 min until the disk is full"));
+    QCOMPARE(freeSpaceText(status(0.05, 1e6)),
+             std::string("less than a minute until the disk is full"));
+    QCOMPARE(freeSpaceText(status(500.0, 1e6)),
+             std::string("more than 2 days until the disk is full"));
   }
 
   void unflushedAndMissingDataAreReported() {

@@ -19,42 +19,15 @@
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
+#include "../support/recorded_messages.h"
+
 namespace tst_recordings {
 
 using namespace pitchboard;
 using namespace pitchboard::telemetry;
-using Json = nlohmann::ordered_json;
+using namespace recorded_messages;
 
 namespace {
-
-std::string dataPath(const std::string& name) {
-  return std::string(PITCHBOARD_SOURCE_DIR "/tests/data/recordings/") + name;
-}
-
-/// The values of a message as in the JSON beside the recordings.
-struct Message {
-  std::string topic;
-  std::int64_t time = 0;
-  std::optional<std::int64_t> stamp;
-  std::map<std::string, std::string> values;
-  bool operator==(const Message&) const = default;
-};
-
-std::string shown(double value) {
-  return std::isnan(value) ? "NaN" : Json(value + 0.0).dump();  // JSON of other programs has no -0
-}
-
-Message messageOf(const RecordingReader& reader) {
-  const RecordedMessage& from = reader.message();
-  Message message{reader.topics()[from.topic].name, from.logTime, from.stamp, {}};
-  std::size_t text = 0;
-  for (std::size_t i = 0; i < from.values.size(); ++i) {
-    const RecordedField& field = from.shape->fields[i];
-    message.values[field.path] =
-        field.kind == RecordedKind::Text ? std::string(from.texts[text++]) : shown(from.values[i]);
-  }
-  return message;
-}
 
 struct Contents {
   std::vector<Message> messages;
@@ -73,7 +46,8 @@ Contents read(const std::vector<std::string>& files) {
   for (const auto& reader : *readers) {
     for (auto item = reader->next(); item && *item != RecordedItem::End; item = reader->next()) {
       if (*item != RecordedItem::Message) continue;
-      out.messages.push_back(messageOf(*reader));
+      out.messages.push_back(
+          messageOf(reader->topics()[reader->message().topic], reader->message()));
       const RecordedMessage& from = reader->message();
       for (const RecordedField& field : from.shape->fields) {
         out.fields[reader->topics()[from.topic].name + " " + field.path] = field;
@@ -83,29 +57,6 @@ Contents read(const std::vector<std::string>& files) {
     out.topics.insert(out.topics.end(), reader->topics().begin(), reader->topics().end());
   }
   return out;
-}
-
-std::vector<Message> expected(const std::string& name) {
-  std::ifstream file(dataPath(name));
-  std::vector<Message> out;
-  for (const Json& json : Json::parse(file)) {
-    Message message{json["topic"], std::stoll(json["time"].get<std::string>()), {}, {}};
-    if (json.contains("stamp")) message.stamp = std::stoll(json["stamp"].get<std::string>());
-    for (const auto& [path, value] : json["values"].items()) {
-      message.values[path] = value.is_string() ? value.get<std::string>() : shown(value);
-    }
-    out.push_back(std::move(message));
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [](const Message& a, const Message& b) { return a.time < b.time; });
-  return out;
-}
-
-std::string textOf(const Message& message) {
-  std::string text = message.topic + " " + std::to_string(message.time) + " " +
-                     (message.stamp ? std::to_string(*message.stamp) : "-");
-  for (const auto& [path, value] : message.values) text += "\n  " + path + " = " + value;
-  return text;
 }
 
 std::string joined(const std::vector<std::string>& lines) {

@@ -14,6 +14,7 @@
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/board_columns.h>
+#include <robotlink/live/board_facts.h>
 #include <robotlink/live/robot_uids.h>
 
 #include "board_map.h"
@@ -41,15 +42,9 @@ class AttachedRobots::Reader {
         m_columns(m_map.catalog),
         m_seconds(std::move(seconds)) {
     m_group = {std::move(name), m_columns.columns()};
-    telemetry::RobotFacts& facts = m_group.robot.emplace();
-    facts.boardKey = board.key;
-    facts.attached = true;
-    facts.rate_hz = board.rate;
-    if (place == AttachedTo::Live) {
-      facts.uid = uidOfBoard(board.key);
-      facts.slot = facts.number = board.number();
-      facts.team = board.team;
-    }
+    m_group.robot = place == AttachedTo::Live
+                        ? factsOfBoard(board.key, board.rate, board.number(), board.team)
+                        : factsOfBoard(board.key, board.rate);
     for (const Variable& variable : m_map.catalog.variables()) {
       const int offset = variable.type == VariableType::Int ? 0 : m_map.layout.floatOffset;
       m_places.push_back(static_cast<std::size_t>(variable.index + offset));

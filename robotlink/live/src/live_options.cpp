@@ -149,6 +149,24 @@ constexpr Access boardsAccess{[](const LiveOptions& o) -> OptionValue {
                                 return {};
                               }};
 
+/// Further ones are added: a source with the same address replaces the known one.
+constexpr Access foxgloveAccess{[](const LiveOptions& o) -> OptionValue {
+                                  Texts texts;
+                                  for (const FoxgloveSource& source : o.foxglove)
+                                    texts.push_back(foxgloveSourceText(source));
+                                  return texts;
+                                },
+                                [](LiveOptions& o, const OptionValue& value) -> Result<void> {
+                                  for (const std::string& text : std::get<Texts>(value)) {
+                                    FoxgloveSource source = TRY(parseFoxgloveSource(text));
+                                    std::erase_if(o.foxglove, [&source](const auto& known) {
+                                      return known.address == source.address;
+                                    });
+                                    o.foxglove.push_back(std::move(source));
+                                  }
+                                  return {};
+                                }};
+
 std::string profileHelp() {
   std::string text = "Format of the robots' messages: a file (docs/live.md), or ";
   const std::vector<std::string> names = telemetry::builtInProfiles();
@@ -234,6 +252,11 @@ std::span<const Option<LiveOptions>> liveOptionTable() {
       {{.name = "attach", .key = "boards",
         .form = "KEY[,catalog=FILE][,size=BYTES][,robot=N][,rate=R][,team=COLOUR]",
         .text = "Attach the blackboard with this System V key, read-only"}, boardsAccess},
+      {{.name = "foxglove", .key = "foxglove",
+        .form = "ADDRESS[,robot=N][,team=COLOUR][,map=FILE]",
+        .text = "Show the topics of a program that speaks Foxglove's protocol, such as "
+                "foxglove_bridge on a robot with ROS 2, at an address such as ws://robot3:8765; "
+                "only reads"}, foxgloveAccess},
   };
   // clang-format on
   return table;
@@ -293,6 +316,7 @@ Result<void> validate(const LiveOptions& options) {
     }
   }
   TRY(validate(options.boards));
+  TRY(validate(options.foxglove));
   return sim::validate(options.field);
 }
 

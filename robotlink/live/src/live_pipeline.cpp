@@ -27,7 +27,8 @@ std::string boardId(int key) {
 constexpr double reportPeriod = 0.25;  // s
 constexpr double snapshotPeriod =
     15.0;  // s; moments of a recording are rebuilt from the last snapshot before them
-constexpr double sentReportPeriod = 1.0;  // s
+constexpr double sentReportPeriod = 1.0;                // s
+constexpr telemetry::Address topicReferee{0x7f000001};  // of packets that are made of topics
 
 GroupInfo sentHealthGroup() {
   GroupInfo group;
@@ -55,6 +56,13 @@ void LiveNews::add(std::vector<MatchEvent> later) {
   std::ranges::move(later, std::back_inserter(events));
   if (events.size() > maxEvents) {
     events.erase(events.begin(), events.end() - static_cast<std::ptrdiff_t>(maxEvents));
+  }
+}
+
+void LiveNews::add(std::vector<LogLine> later) {
+  std::ranges::move(later, std::back_inserter(lines));
+  if (lines.size() > maxLines) {
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(maxLines));
   }
 }
 
@@ -127,9 +135,27 @@ LivePipeline::LivePipeline(LiveOptions options, WallTime zero)
       m_state(m_options),
       m_rows(m_fan, rowsOptions(m_options, m_teams, zero), m_state.uids),
       m_sent(m_state.uids),
+      m_topics(topicOutputs(), zero),
       m_boardRows(m_fan),
       m_sentHealth(m_fan) {
   useCatalogs();
+  useSources();
+}
+
+LiveTopics::Outputs LivePipeline::topicOutputs() {
+  const auto referee = [this](const std::string& packet, WallTime arrival) {
+    const auto port = static_cast<std::uint16_t>(m_options.refereePort);
+    take(DatagramView{arrival, {topicReferee, port}, port, false, packet});
+  };
+  const auto decoded = [this](const LiveTopicMessage& message) {
+    for (const auto& observer : m_observers) observer->decoded(message);
+  };
+  return {*m_fan, [this](const LogLine& line) { notify(line); }, referee, decoded};
+}
+
+void LivePipeline::useSources() {
+  m_topics.setSources(m_options.foxglove, m_options.field,
+                      telemetry::secondsOf(m_options.team.timeout));
 }
 
 /// What a robot sends is recognized by any map that is known.
@@ -157,6 +183,7 @@ void LivePipeline::setOptions(LiveOptions options, WallTime now) {
   m_state.referee.setOptions(LiveState::refereeOptions(m_options));
   if (!m_options.simulated) m_state.forgetSimulated(m_options);
   useCatalogs();
+  useSources();
   noteTeams();
   std::vector<RobotKey> robots;
   for (const telemetry::RobotStatus& robot : m_state.monitor.status(now).robots) {
@@ -169,6 +196,7 @@ void LivePipeline::setOptions(LiveOptions options, WallTime now) {
 void LivePipeline::clear(WallTime now) {
   m_state.clear(m_options);
   m_sent.clear();
+  m_topics.clear();
   m_sentRobots.clear();
   m_boardNames.clear();
   m_badVariables = m_refusedVariables = 0;
@@ -184,6 +212,7 @@ void LivePipeline::clear(WallTime now) {
 
 void LivePipeline::forget(RobotUid robot, WallTime now) {
   if (const auto key = m_state.uids->keyOf(robot)) m_state.forget(*key);
+  m_topics.forget(robot);
   for (const auto& [sender, uid] : m_sentRobots) {
     if (uid == robot) m_sent.forget(sender.second, sender.first);
   }
@@ -303,6 +332,7 @@ MatchFrame LivePipeline::join(const telemetry::TeamStatus& team, const AttachedR
     robot.ownName = ownNameOf(m_options, robot.key);
     robots.push_back(std::move(robot));
   }
+  std::ranges::move(m_topics.robots(seconds(now)), std::back_inserter(robots));
   for (const RobotFrame& robot : robots) {
     boards.push_back(
         {{robot.link->sender.address, robot.key.number}, robot.boardKey, robot.name, {}});
@@ -326,6 +356,7 @@ MatchFrame LivePipeline::advance(WallTime now, AttachedRobots* attached) {
   // Before the robots: who has rows is then one of them.
   if (attached != nullptr) attached->drainRows(keep);
   m_sent.drainRows(keep);
+  m_topics.drainRows(keep);
   ++m_serial;
   const telemetry::TeamStatus team = m_state.monitor.status(now);
   std::vector<Board> boards;
@@ -337,7 +368,14 @@ MatchFrame LivePipeline::advance(WallTime now, AttachedRobots* attached) {
       m_boardRows.take(one.id, *one.group, known->second, one.rows);
     }
   }
-  notify(m_events.compare(frame));
+  notify(m_topics.drainEvents());
+  std::vector<MatchEvent> events = m_events.compare(frame);
+  for (MatchEvent& event : events) {
+    if (event.kind != MatchEventKind::RobotReceived) continue;
+    const std::string source = m_topics.sourceOf(event.robot);
+    if (!source.empty()) event.detail = source;
+  }
+  notify(events);
   for (const auto& observer : m_observers) observer->frameMade(frame);
   const double time = seconds(now);
   if (time >= m_nextReport) {
@@ -409,6 +447,7 @@ void LivePipeline::reportSent(WallTime now) {
   static const GroupInfo group = sentHealthGroup();
   m_nextSentReport = seconds(now) + sentReportPeriod;
   if (m_fan->isEmpty()) return;
+  m_topics.report(now);
   const std::vector<SentStatus> all = details(now).sent;
   const std::map<std::string, BoardRowKeeper::Facts> facts = agentFacts(all);
   for (const SentStatus& sent : all) {
@@ -469,6 +508,7 @@ LiveDetails LivePipeline::details(WallTime now) const {
     const auto named = m_boardNames.find(robot);
     sent.name = named != m_boardNames.end() ? named->second : robotName(sent.robot, m_teams);
   }
+  details.topics = m_topics.status(now);
   details.badVariables = m_badVariables;
   details.badVariablesReason = m_badReason;
   details.refusedVariables = m_refusedVariables;
@@ -503,6 +543,11 @@ void LivePipeline::notify(const std::vector<MatchEvent>& events) {
   for (const auto& observer : m_observers) {
     for (const MatchEvent& event : events) observer->happened(event);
   }
+}
+
+void LivePipeline::notify(const LogLine& line) {
+  m_news.add(std::vector<LogLine>{line});
+  for (const auto& observer : m_observers) observer->logged(line);
 }
 
 void LivePipeline::observe(std::shared_ptr<LiveObserver> observer, WallTime now) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <robotlink/live/live_pipeline.h>
+#include <telemetry/foxglove/foxglove_client.h>
 
 namespace pitchboard::link {
 namespace {
@@ -54,24 +55,60 @@ struct LiveWatch::Impl {
   }
 
   // What follows is called on the thread only.
+  void noteArrival() {
+    {
+      const std::lock_guard lock(mutex);
+      arrived = true;
+    }
+    come.notify_one();
+  }
+
   void listen() {
     receiver.reset();  // its ports may be wanted again
-    const auto noteArrival = [this] {
-      {
-        const std::lock_guard lock(mutex);
-        arrived = true;
-      }
-      come.notify_one();
-    };
-    auto started = telemetry::UdpReceiver::start(receiverOptions(options, clock), noteArrival);
+    auto started =
+        telemetry::UdpReceiver::start(receiverOptions(options, clock), [this] { noteArrival(); });
     networkProblem = started ? std::string() : started.error().text();
     if (started) receiver = std::move(*started);
+  }
+
+  /// One client for each program with topics.
+  struct TopicClient {
+    FoxgloveSource source;
+    std::unique_ptr<telemetry::FoxgloveClient> client;
+  };
+
+  void connectClients() {
+    std::erase_if(clients, [this](const TopicClient& known) {
+      return std::ranges::find(options.foxglove, known.source) == options.foxglove.end();
+    });
+    for (const FoxgloveSource& source : options.foxglove) {
+      if (std::ranges::find(clients, source, &TopicClient::source) != clients.end()) continue;
+      clients.push_back({source, std::make_unique<telemetry::FoxgloveClient>(
+                                     source.address, [clock = clock] { return clock->now(); },
+                                     [this] { noteArrival(); })});
+    }
+  }
+
+  /// Returns how much has come.
+  std::size_t takeTopics() {
+    std::size_t count = 0;
+    for (const TopicClient& one : clients) {
+      const std::vector<telemetry::FoxgloveEvent> events = one.client->take();
+      count += events.size();
+      for (const telemetry::FoxgloveEvent& event : events) {
+        TopicRequest request = pipeline.take(one.source, event);
+        if (request.channels.empty()) continue;
+        one.client->subscribe(request.session, std::move(request.channels));
+      }
+    }
+    return count;
   }
 
   void setOptions(LiveOptions changed) {
     const auto before = receiverOptions(options, clock);
     pipeline.setOptions(std::move(changed), clock->now());
     boards.set(options.boards);
+    connectClients();
     monitorProblem.clear();
     const auto after = receiverOptions(options, clock);
     if (before.ports != after.ports || before.bind != after.bind || !receiver) {
@@ -101,6 +138,7 @@ struct LiveWatch::Impl {
   }
 
   void makeFrame() {
+    for (const TopicClient& one : clients) pipeline.note(one.source, one.client->status());
     auto frame = std::make_shared<const MatchFrame>(pipeline.advance(clock->now(), &boards));
     pipeline.noticeClock(clock->setBy(), frame->snapshot.time);
     const auto now = Steady::now();
@@ -123,6 +161,7 @@ struct LiveWatch::Impl {
       const std::lock_guard lock(mutex);
       details = std::move(all);
       news.add(std::move(made.events));
+      news.add(std::move(made.lines));
       if (frame) news.frame = std::move(frame);
       if (!news.frame || std::exchange(announced, true)) return;
     }
@@ -139,6 +178,7 @@ struct LiveWatch::Impl {
 
   void run(const std::stop_token& stop) {
     listen();
+    connectClients();
     publish(nullptr);
     auto last = Steady::now() - idlePeriod;
     bool fresh = true;
@@ -148,9 +188,10 @@ struct LiveWatch::Impl {
       // The batch first: an observer that was added before a datagram was sent is told of it.
       if (receiver) receiver->take(batch);
       runRequests();
-      if (batch.size() > 0) {
+      const std::size_t events = takeTopics();
+      if (batch.size() + events > 0) {
         fresh = true;
-        const bool many = batch.size() >= flood;
+        const bool many = batch.size() + events >= flood;
         takeAll();
         // In a flood every datagram would wake this thread; a millisecond gathers many.
         if (many) std::this_thread::sleep_for(1ms);
@@ -182,6 +223,7 @@ struct LiveWatch::Impl {
   std::shared_ptr<const LiveDetails> details = std::make_shared<LiveDetails>();
 
   std::unique_ptr<telemetry::UdpReceiver> receiver;  // its thread uses the above
+  std::vector<TopicClient> clients;                  // theirs, too
   std::jthread thread;                               // last: it uses all of the above
 };
 
@@ -247,6 +289,7 @@ void LiveWatch::stopObserving(const std::shared_ptr<LiveObserver>& observer) {
   m_impl->request([impl = m_impl.get(), &observer, &done] {
     // What has come belongs to the observer; rows of variables wait for the next frame.
     impl->takeAll();
+    impl->takeTopics();
     impl->makeFrame();
     impl->pipeline.stopObserving(observer);
     done.count_down();

@@ -8,6 +8,8 @@
 #include <robotlink/frame/teams.h>
 #include <telemetry/wire/team_monitor.h>
 
+#include "uid_ranges.h"
+
 namespace pitchboard::link {
 
 static_assert(RobotUids::maxRobots >
@@ -15,8 +17,8 @@ static_assert(RobotUids::maxRobots >
 
 namespace {
 
-// Uids of simulated robots are below these, those of uidOf() above.
-constexpr std::uint32_t ofNetwork = 1U << 28, ofBoardKey = 2U << 28, mask = ofNetwork - 1;
+using uid_ranges::mask;
+using uid_ranges::ofNetwork;
 
 /// The first datagram says who it is, so that a part of a recording gives the same uids.
 RobotUid firstUid(int place, int number, telemetry::Address sender) {
@@ -99,10 +101,6 @@ RobotUid RobotUids::ofVariables(int number, telemetry::Address sender, int place
 void RobotUids::move(RobotUid uid, telemetry::Address sender) {
   const std::size_t index = find([uid](const Known& known) { return known.uid == uid; });
   if (index < m_known.size()) m_known[index].sender = sender;
-}
-
-RobotUid uidOfBoard(int boardKey) {
-  return {ofBoardKey | (static_cast<std::uint32_t>(boardKey) & mask)};
 }
 
 void RobotUids::rename(const std::vector<telemetry::Renaming>& renamings) {

@@ -12,13 +12,13 @@ tl::unexpected<Error> cannotMake(int reason, const std::string& path) {
     case EEXIST:
       return failure(ErrorCode::Conflict, "This file exists; choose another name.", path);
     case ENOENT:
-      return failure(ErrorCode::SystemError, "The folder does not exist; choose another one.",
+      return failure(ErrorCode::SystemError, "The folder does not exist; choose another folder.",
                      path);
     case EACCES:
     case EROFS:
     case EPERM:
       return failure(ErrorCode::SystemError,
-                     "This folder does not allow new files; choose another one.", path);
+                     "Cannot create files in this folder; choose another folder.", path);
     default:
       return failure(ErrorCode::SystemError,
                      "Cannot create the file: " + systemReason(reason) + ".", path);

@@ -305,7 +305,7 @@ const std::vector<std::string>& Expression::variables() const {
   return d->variables;
 }
 
-Result<Expression> Expression::parse(std::string_view text) {
+Result<Expression> Expression::parse(std::string_view text, std::string_view group) {
   if (trimmed(text).empty()) return wrong("the expression is empty");
   if (text.size() > longest) {
     return wrong("the expression is longer than " + std::to_string(longest) + " characters");
@@ -375,6 +375,8 @@ Result<Expression> Expression::parse(std::string_view text) {
       } else if (const std::size_t dot = identifier.find('.');
                  dot != std::string::npos && dot > 0) {
         name = identifier.substr(0, dot) + '/' + identifier.substr(dot + 1);
+      } else if (dot == std::string::npos && !group.empty()) {
+        name = std::string(group) + '/' + identifier;
       }
       if (name.empty()) {
         return wrong('\'' + identifier +
@@ -401,7 +403,7 @@ Result<Expression> Expression::parse(std::string_view text) {
     parser.SetExpr(withOurOperators(plain, at));
     parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    std::size_t position = error.GetPos();
+    auto position = static_cast<std::size_t>(error.GetPos());
     if (error.GetCode() == mu::ecMISPLACED_COLON && position > 0)
       --position;  // muParser names what follows
     if (error.GetCode() == mu::ecUNEXPECTED_PARENS) {

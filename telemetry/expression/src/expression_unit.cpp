@@ -269,7 +269,7 @@ class UnitReader {
     if (name == "pi" || name == "_pi") return numberTerm(std::numbers::pi);
     if (name == "t") return measuredTerm({{"s", 1}});
     const std::size_t dot = name.find('.');
-    if (dot == std::string_view::npos) return unknownTerm();
+    if (dot == std::string_view::npos) return variable(std::string(name));
     return variable(std::string(name.substr(0, dot)) + '/' + std::string(name.substr(dot + 1)));
   }
   Term bracketed() {

@@ -79,8 +79,9 @@ Result<void> McapReader::Impl::readHeader() {
     return tl::unexpected(Error{ErrorCode::ParseError, "This file is empty.", source.name()});
   }
   if (begin != magic) {
-    return tl::unexpected(Error{ErrorCode::ParseError,
-                                "This is not an MCAP file (wrong magic bytes).", source.name()});
+    return tl::unexpected(
+        Error{ErrorCode::ParseError,
+              "This is not an MCAP file: it does not begin with the bytes of one.", source.name()});
   }
   dataBegin = magic.size();
   const RecordHead head = headIn(source.look(dataBegin, recordHead));

@@ -10,8 +10,9 @@
 
 #include <base/try.h>
 #include <base/units.h>
+#include <telemetry/recordings/decoded_topics.h>
 
-#include "decoded_topics.h"
+#include "message_shape.h"
 #include "recording_formats.h"
 #include "text_file.h"
 

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "decoded_topics.h"
+#include <telemetry/recordings/decoded_topics.h>
 
+#include <algorithm>
 #include <utility>
+
+#include "message_decoder.h"
 
 namespace pitchboard::telemetry {
 
 std::string countText(std::uint64_t count, const char* one, const char* many) {
   return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+DecodedTopics::DecodedTopics() : m_decoded(std::make_unique<DecodedMessage>()) {}
+DecodedTopics::~DecodedTopics() = default;
+DecodedTopics::DecodedTopics(DecodedTopics&&) noexcept = default;
+DecodedTopics& DecodedTopics::operator=(DecodedTopics&&) noexcept = default;
+
+std::uint64_t DecodedTopics::wrong() const {
+  std::uint64_t sum = 0;
+  for (const State& state : m_states) sum += state.wrong;
+  return sum;
 }
 
 std::size_t DecodedTopics::add(std::string_view name, const MessageSchema& schema,
@@ -45,18 +59,19 @@ std::size_t DecodedTopics::add(std::string_view name, const MessageSchema& schem
 bool DecodedTopics::decode(std::size_t topic, std::string_view bytes, std::int64_t logTime,
                            RecordedMessage& to) {
   State& state = m_states[topic];
-  m_decoded.clear();
-  if (!state.decoder->decode(bytes, m_decoded)) {
+  DecodedMessage& decoded = *m_decoded;
+  decoded.clear();
+  if (!state.decoder->decode(bytes, decoded)) {
     ++state.wrong;
     return false;
   }
-  state.leftOut += m_decoded.leftOut;
+  state.leftOut += decoded.leftOut;
   to.topic = topic;
   to.logTime = logTime;
-  to.stamp = m_decoded.stamp;
-  to.shape = m_decoded.shape;
-  to.values = m_decoded.values;
-  to.texts = m_decoded.texts;
+  to.stamp = decoded.stamp;
+  to.shape = decoded.shape;
+  to.values = decoded.values;
+  to.texts = decoded.texts;
   return true;
 }
 

@@ -9,8 +9,8 @@
 #include <base/try.h>
 #include <telemetry/mcap/mcap_cursor.h>
 #include <telemetry/mcap/mcap_reader.h>
+#include <telemetry/recordings/decoded_topics.h>
 
-#include "decoded_topics.h"
 #include "recording_formats.h"
 
 namespace pitchboard::telemetry {

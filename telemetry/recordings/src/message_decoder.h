@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <base/result.h>
+#include <telemetry/recordings/decoded_topics.h>
 
 #include "message_shape.h"
 
@@ -18,14 +19,6 @@ class MessageDecoder {
   virtual ~MessageDecoder() = default;
   /// Returns false if the message is not what its schema says; `to` is then of no use.
   virtual bool decode(std::string_view message, DecodedMessage& to) = 0;
-};
-
-/// How messages are written, in the words of MCAP.
-struct MessageSchema {
-  std::string_view type;             ///< "sensor_msgs/msg/Imu"
-  std::string_view schemaEncoding;   ///< "ros2msg", "ros2idl", "ros1msg", "jsonschema", "protobuf"
-  std::string_view messageEncoding;  ///< "cdr", "ros1", "json", "protobuf"
-  std::string_view schema;
 };
 
 /// Fails with Unsupported if nothing here reads such messages, with ParseError if the schema is not

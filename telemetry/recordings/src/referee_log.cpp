@@ -12,10 +12,11 @@
 #include <limits>
 
 #include <base/try.h>
+#include <telemetry/recordings/decoded_topics.h>
 #include <telemetry/wire/base64.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
 
-#include "decoded_topics.h"
+#include "message_shape.h"
 #include "recording_formats.h"
 #include "text_file.h"
 

@@ -12,8 +12,8 @@
 #include <base/byte_sizes.h>
 #include <base/read_file.h>
 #include <base/try.h>
+#include <telemetry/recordings/decoded_topics.h>
 
-#include "decoded_topics.h"
 #include "recording_formats.h"
 
 namespace pitchboard::telemetry {

@@ -84,7 +84,8 @@ std::string troubleText(const SessionStatus& status) {
 std::string freeSpaceText(const SessionStatus& status) {
   if (!status.freeBytes) return {};
   const auto left = secondsLeft(status);
-  return left ? "room for " + timeText(*left) : bytesText(*status.freeBytes) + " free";
+  return left ? timeText(*left) + " until the disk is full"
+              : bytesText(*status.freeBytes) + " free";
 }
 
 }  // namespace pitchboard::telemetry

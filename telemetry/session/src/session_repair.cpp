@@ -57,7 +57,7 @@ class Repair {
     if (const std::uint64_t lost = copied->messagesWithoutChannel; lost > 0) {
       missing(std::to_string(lost) +
               (lost == 1 ? " message belongs to a channel" : " messages belong to channels") +
-              " whose description is lost.");
+              " whose definition is lost.");
       m_report.lostMessages += lost;
     }
     auto done = verify(target->partPath(), copied->channels);
@@ -136,7 +136,7 @@ std::string RepairReport::summary() const {
     text += "; " + std::to_string(lostMessages) + (lostMore ? " and possibly more" : "") +
             (lostMessages == 1 && !lostMore ? " is lost" : " are lost");
   } else if (lostMore) {
-    text += "; others are lost, and their number is unknown";
+    text += "; an unknown number of messages is lost";
   } else if (brokeOff) {
     text += "; the recording was cut off, so its end may be missing";
   } else if (!complete) {

@@ -153,7 +153,7 @@ struct SessionWriter::Impl {
   void closeCurrent();
   bool isEmpty() const { return current.empty() && sparse.empty(); }
   std::size_t openBytes() const { return current.bytes() + sparse.bytes(); }
-  std::size_t indexOf(const GroupInfo& info);
+  std::size_t indexOf(const GroupInfo& of);
   void openChannel(Group& group, double time);
   void openWhere(const std::function<bool(const Group&)>& wanted);
   bool isDue(const Group& group, double time) const;
@@ -522,8 +522,8 @@ void SessionWriter::Impl::closeCurrent() {
 }
 
 /// Needs the lock, as everything below.
-std::size_t SessionWriter::Impl::indexOf(const GroupInfo& info) {
-  const std::string key = info.id.empty() ? "name " + info.name : "id " + info.id;
+std::size_t SessionWriter::Impl::indexOf(const GroupInfo& of) {
+  const std::string key = of.id.empty() ? "name " + of.name : "id " + of.id;
   const auto [known, isNew] = groupsByKey.try_emplace(key, groups.size());
   if (isNew) groups.emplace_back();
   return known->second;

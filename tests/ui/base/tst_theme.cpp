@@ -289,6 +289,8 @@ class TestTheme : public QObject {
     QCOMPARE(numberText(-0.001, 2), QStringLiteral("0.00"));
     QCOMPARE(clockText(312.9), QStringLiteral("05:12"));
     QCOMPARE(clockText(3671), QStringLiteral("1:01:11"));
+    QCOMPARE(clockText(-5.3), QStringLiteral("−00:05"));
+    QCOMPARE(clockText(-0.3), QStringLiteral("00:00"));
     QCOMPARE(durationText(59.99), QStringLiteral("59 s"));
     QCOMPARE(durationText(9.97, 1), QStringLiteral("9.9 s"));
     QCOMPARE(durationText(0.2, 1), QStringLiteral("0.2 s"));

@@ -22,6 +22,7 @@
 
 #include "../support/robot_keys.h"
 #include "drawings_menu.h"
+#include "field_background.h"
 #include "hover_text.h"
 #include "live_items.h"
 #include "made_frames.h"
@@ -187,7 +188,7 @@ class TestFieldLook : public QObject {
       crowd.push_back({inSlot(i + 1), {apart * i, 3.0 * (i % 3)}, radius, {18.0, 9.0}});
     }
     std::map<RobotUid, int> before;
-    const auto placed = placeNames(crowd, before);
+    const auto placed = placeNames(crowd, {}, before);
     QCOMPARE(placed.size(), crowd.size());
     const auto box = [](const PlacedName& name) {
       return QRectF(name.centre.x() - 9.0, name.centre.y() - 4.5, 18.0, 9.0);
@@ -205,7 +206,7 @@ class TestFieldLook : public QObject {
     }
     // They do not jump about when everybody has moved a little.
     for (NamedRobot& robot : crowd) robot.at += QPointF(0.2, 0.1);
-    const auto again = placeNames(crowd, before);
+    const auto again = placeNames(crowd, {}, before);
     for (std::size_t i = 0; i < placed.size(); ++i) {
       const QPointF way = again[i].centre - placed[i].centre;
       QVERIFY(std::hypot(way.x(), way.y()) < 1.0);
@@ -236,7 +237,7 @@ class TestFieldLook : public QObject {
     std::map<RobotUid, int> none;
     const std::vector<NamedRobot> two{{inSlot(1), {0, 0}, 4.0, {18.0, 9.0}}};
     const QRectF taken(-40, -20, 80, 14);
-    const QPointF name = placeNames(two, none, {taken})[0].centre;
+    const QPointF name = placeNames(two, {}, none, {taken})[0].centre;
     QVERIFY(!taken.intersects(QRectF(name - QPointF(9, 4.5), QSizeF(18, 9))));
   }
 
@@ -265,11 +266,47 @@ class TestFieldLook : public QObject {
     QCOMPARE(placeTags(all, area, before).size(), all.size());
   }
 
+  void namesAtTheEdgeAreWhole() {
+    // Small robots in the corners and at the middle of every edge of what is shown.
+    const QRectF area(-200, -150, 400, 300);
+    std::vector<NamedRobot> edge;
+    for (const double x : {area.left(), 0.0, area.right()}) {
+      for (const double y : {area.top(), 0.0, area.bottom()}) {
+        edge.push_back({inSlot(static_cast<int>(edge.size()) + 1), {x, y}, 4.0, {18.0, 9.0}});
+      }
+    }
+    std::map<RobotUid, int> before;
+    const auto placed = placeNames(edge, area, before);
+    QCOMPARE(placed.size(), edge.size());
+    for (const PlacedName& name : placed) {
+      QVERIFY(area.contains(QRectF(name.centre - QPointF(9, 4.5), QSizeF(18, 9))));
+    }
+  }
+
+  void numbersOfTheGridAreWhole() {
+    FieldStyle style;
+    const QRectF area(0, 0, 640, 480);
+    // Every place of the grid's lines relative to the edges, as if it was dragged along.
+    for (const double shift : {0.0, 1.0, 3.0, 7.0, 12.0, 25.0, 60.0}) {
+      const QTransform view(150, 0, 0, -150, 320 + shift, 240 + shift);
+      const auto labels = gridLabels(style, view, area);
+      QVERIFY(labels.size() > 8);
+      for (const GridLabel& label : labels) {
+        QVERIFY2(area.contains(label.box), qPrintable(label.text));
+      }
+    }
+    // All of the field: the numbers of both touch lines and of both goal lines.
+    const QTransform whole(50, 0, 0, -50, 320, 240);
+    QStringList texts;
+    for (const GridLabel& label : gridLabels(style, whole, area)) texts << label.text;
+    for (const char* text : {"4", "−4", "0", "3", "−3"}) QVERIFY(texts.contains(text));
+  }
+
   void aNumberThatCanBeReadNeedsNoName() {
     std::map<RobotUid, int> before;
     const std::vector<NamedRobot> robots{{inSlot(1), {0, 0}, 10.0, {18.0, 9.0}},
                                          {inSlot(2), {21, 0}, 10.0, {18.0, 9.0}}};
-    QVERIFY(placeNames(robots, before).empty());
+    QVERIFY(placeNames(robots, {}, before).empty());
   }
 
   void anUnsureBeliefCoversLess() {

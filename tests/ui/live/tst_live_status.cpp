@@ -52,6 +52,34 @@ class TestLiveStatus : public QObject {
     }
   }
 
+  void sourcesOfTopics() {
+    LiveStatus status;
+    link::LiveDetails details;
+    link::TopicSourceStatus& source = details.topics.emplace_back();
+    source.source = link::parseFoxgloveSource("robot3").value();
+    source.client.state = telemetry::FoxgloveState::Waiting;
+    source.client.problem = "Cannot connect to ws://robot3:8765: Connection refused.";
+    LiveStatusText text = status.update(details, nullptr, 1.0);
+    QCOMPARE(text.trouble,
+             QStringLiteral("Cannot connect to ws://robot3:8765: Connection refused. (retrying)"));
+    source.client.state = telemetry::FoxgloveState::Connected;
+    source.client.problem.clear();
+    source.client.server = "bridge %4";  // a name is no place for other values
+    source.channels = 15;
+    source.decoded = 12;
+    source.rate = 310.0;
+    source.delay = 0.004;
+    source.clockOffset = -2.5;
+    source.unread = {"/odd: unknown"};
+    text = status.update(details, nullptr, 2.0);
+    QVERIFY(text.trouble.isEmpty());
+    QVERIFY2(text.tip.contains(QStringLiteral("ws://robot3:8765: bridge %4, 12 of 15 topics, 310")),
+             qPrintable(text.tip));
+    QVERIFY(text.tip.contains(QStringLiteral("delay 4 ms above the shortest")));
+    QVERIFY(text.tip.contains(QStringLiteral("loss unknown")));
+    QVERIFY(text.tip.contains(QStringLiteral("not read: /odd: unknown")));
+  }
+
   void aCounterThatBeganAnewIsNoRate() {
     RateWindow rate;
     rate.look(0.0, 1000);

@@ -146,6 +146,19 @@ class TestPlots : public QObject {
     QVERIFY(s.time.isFollowing());
   }
 
+  void noTimeIsBeforeTheBeginning() {
+    Shown s;
+    s.dropped({"B1/DIST"});
+    s.time.setRange({-30.0, 30.0});
+    const auto* ruler = s.dock->currentPage()->findChild<TimeRuler*>();
+    const auto labels = ruler->labels();
+    QVERIFY(labels.size() >= 3);
+    for (const AxisTick& tick : labels) QVERIFY2(tick.time >= 0.0, qPrintable(tick.label));
+    // Times of day go on.
+    s.dock->feed()->setClock(QDateTime(QDate(2026, 7, 1), QTime(14, 11, 0)));
+    QVERIFY(ruler->labels().front().time < 0.0);
+  }
+
   void draggingMovesAndABoxZooms() {
     Shown s;
     auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));

@@ -134,9 +134,9 @@ class TestCardState : public QObject {
       frame.robots[0].processList =
           std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
       const CardState card = tracker.update(frame, 0)[0];
-      QCOMPARE(card.tag, QStringLiteral("decision keeps real time"));
+      QCOMPARE(card.tag, QStringLiteral("decision uses real time"));
       QCOMPARE(card.tagTip,
-               QStringLiteral("R2 decision keeps real time: the clock of the match cannot be "
+               QStringLiteral("R2 decision uses real time: the clock of the match cannot be "
                               "loaded into it (static or setuid program)"));
       QCOMPARE(card.tagKind, TagKind::Warning);
     }
@@ -155,7 +155,7 @@ class TestCardState : public QObject {
       frame.robots[0].processList =
           std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
       QCOMPARE(CardTracker().update(frame, 0)[0].tag,
-               speed == 1.0 ? QString() : QStringLiteral("decision keeps real time"));
+               speed == 1.0 ? QString() : QStringLiteral("decision uses real time"));
     }
   }
 

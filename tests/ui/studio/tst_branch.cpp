@@ -158,6 +158,13 @@ class TestBranch : public QObject {
       return most;
     };
     QTRY_VERIFY(strokes(4.5, 9.5) > 10);
+    // Only where a dashed curve is: neither before the moment nor behind its end.
+    plots->time()->setRange({0.0, 3.0});
+    QTRY_VERIFY(pane->captions().isEmpty());
+    plots->time()->setRange({12.0, 20.0});
+    QVERIFY(pane->captions().isEmpty());
+    plots->time()->setRange({3.0, 6.0});
+    QTRY_COMPARE(pane->captions().size(), 1);
     // The strip writes it, too.
     const auto* strip = s.find<TimelineStrip>("timelineStrip");
     QVERIFY(strip->branchRect().height() >= strip->fontMetrics().ascent());

@@ -258,7 +258,7 @@ void TestSituationTests::theDialogExplainsWhatIsNotPossible() {
   press(dialog, "testSave");
   QVERIFY(dialog->isVisible());
   QVERIFY2(
-      problem->text().contains(QStringLiteral("The folder does not exist; choose another one")),
+      problem->text().contains(QStringLiteral("The folder does not exist; choose another folder")),
       qPrintable(problem->text()));
 }
 

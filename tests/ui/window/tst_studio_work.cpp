@@ -329,7 +329,7 @@ class TestStudioWork : public QObject {
     s.controller.setSpeed(8.0);
     const auto card = [&s] { return s.window.findChild<RobotCard*>(); };
     QTRY_VERIFY(card() != nullptr);
-    QTRY_VERIFY2_WITH_TIMEOUT(card()->accessibleDescription().endsWith("decision keeps real time"),
+    QTRY_VERIFY2_WITH_TIMEOUT(card()->accessibleDescription().endsWith("decision uses real time"),
                               qPrintable(card()->accessibleDescription()), 30'000);
     QSet<QString> tips;
     for (int x = 0; x < card()->width(); x += 10) {
@@ -339,7 +339,7 @@ class TestStudioWork : public QObject {
         tips << QToolTip::text();
       }
     }
-    QVERIFY2(tips.contains("B1 decision keeps real time: the clock of the match cannot be loaded "
+    QVERIFY2(tips.contains("B1 decision uses real time: the clock of the match cannot be loaded "
                            "into it (static or setuid program)"),
              qPrintable(tips.values().join('\n')));
   }

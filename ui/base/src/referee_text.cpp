@@ -28,7 +28,7 @@ QString penaltyTag(const link::Penalty& penalty) {
 }
 
 QString refereeClockText(int seconds) {
-  return (seconds < 0 ? QString(QChar(0x2212)) : QString()) + clockText(std::abs(seconds));
+  return clockText(seconds);
 }
 
 QString refereeStateText(const link::MatchFrame& frame) {

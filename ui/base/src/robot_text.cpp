@@ -46,11 +46,13 @@ QString numberText(double value, int decimals) {
 }
 
 QString clockText(double seconds) {
-  const auto whole = static_cast<long long>(std::floor(seconds));
+  const auto whole = static_cast<long long>(std::floor(std::abs(seconds)));
   const QLatin1Char zero('0');
   const QString minutes =
       QStringLiteral("%1:%2").arg(whole / 60 % 60, 2, 10, zero).arg(whole % 60, 2, 10, zero);
-  return whole < 3600 ? minutes : QString::number(whole / 3600) + QLatin1Char(':') + minutes;
+  const QString text =
+      whole < 3600 ? minutes : QString::number(whole / 3600) + QLatin1Char(':') + minutes;
+  return seconds < 0 && whole > 0 ? QChar(0x2212) + text : text;
 }
 
 QString durationText(double seconds, int decimals) {

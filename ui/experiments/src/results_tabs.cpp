@@ -24,6 +24,7 @@
 #include <limits>
 #include <vector>
 
+#include <telemetry/statistics/histogram.h>
 #include <ui/base/field_ground.h>
 #include <ui/base/table_style.h>
 #include <ui/base/theme.h>
@@ -137,7 +138,7 @@ void DistributionView::draw() {
   if (low == high) high = low + 1.0;
   for (std::size_t c = 0; c < std::min(s.conditions.size(), maxConditions); ++c) {
     const auto counts =
-        link::histogram(m_played->table.conditions[c].columns[metric], low, high, bins);
+        telemetry::histogram(m_played->table.conditions[c].columns[metric], low, high, bins);
     const double runs = std::max<double>(1.0, static_cast<double>(s.conditions[c].runs));
     auto* line = new QLineSeries;
     for (std::size_t b = 0; b < bins; ++b) {

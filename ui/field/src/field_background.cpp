@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "field_background.h"
 
+#include <QFontMetricsF>
 #include <algorithm>
 #include <cmath>
 
 #include <ui/base/field_ground.h>
+#include <ui/base/quick_painting.h>
 #include <ui/base/theme.h>
 
 namespace pitchboard::ui {
@@ -65,47 +67,92 @@ void paintLandmarks(QPainter& painter, const sim::FieldSpec& f, double pixel) {
   }
 }
 
+/// The lines of the grid: where they are, and which part of the field is seen.
+struct Grid {
+  double step = 1.0;  // m
+  int decimals = 0;
+  double right = 0.0, top = 0.0;  // ends of the field with its border, m
+  QRectF seen;                    // px
+
+  /// Calls `draw(m)` for every line up to a limit, on both sides of 0.
+  template <class Draw>
+  void each(double limit, const Draw& draw) const {
+    const int last = static_cast<int>(std::floor(limit / step + 1e-9));
+    for (int i = -last; i <= last; ++i) draw(i * step);
+  }
+};
+
+Grid gridOf(const FieldStyle& style, const QTransform& sceneToView, const QRectF& area) {
+  Grid grid;
+  grid.right = style.field.halfLength() + style.field.border;
+  grid.top = style.field.halfWidth() + style.field.border;
+  const double perMetre = std::abs(sceneToView.m11());
+  grid.step = perMetre > 320 ? 0.1 : perMetre > 140 ? 0.5 : perMetre > 24 ? 1.0 : 2.0;
+  grid.decimals = grid.step < 1.0 ? 1 : 0;
+  const QRectF field = sceneToView.mapRect(style.playingArea());
+  grid.seen = field.intersected(area);
+  return grid;
+}
+
+const QFont& gridFont() {
+  return fieldFont(10, false);
+}
+
 void paintGrid(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
                const QRectF& area) {
-  const sim::FieldSpec& f = style.field;
-  const double right = f.halfLength() + f.border;
-  const double top = f.halfWidth() + f.border;
-  const double perMetre = std::abs(sceneToView.m11());
-  const double step = perMetre > 320 ? 0.1 : perMetre > 140 ? 0.5 : perMetre > 24 ? 1.0 : 2.0;
-  const int decimals = step < 1.0 ? 1 : 0;
+  const Grid grid = gridOf(style, sceneToView, area);
+  const QRectF& seen = grid.seen;
   QColor line = theme().fieldLines;
   line.setAlphaF(0.22F);
   QColor axis = theme().fieldLines;
   axis.setAlphaF(0.5F);
-  const QFont& font = fieldFont(10, false);
-  const QColor halo = theme().fieldBorder;
   painter.setRenderHint(QPainter::Antialiasing, false);
-  const auto each = [&](double limit, auto&& draw) {
-    const int last = static_cast<int>(std::floor(limit / step + 1e-9));
-    for (int i = -last; i <= last; ++i) draw(i * step, i == 0);
-  };
-  const QRectF field = sceneToView.mapRect(QRectF(-right, -top, 2 * right, 2 * top));
-  const QRectF seen = field.intersected(area);
-  each(right, [&](double x, bool zero) {
+  grid.each(grid.right, [&](double x) {
     const double at = std::round(sceneToView.map(QPointF(x, 0)).x());
-    painter.setPen(QPen(zero ? axis : line, 1));
+    painter.setPen(QPen(x == 0.0 ? axis : line, 1));
     painter.drawLine(QPointF(at, seen.top()), QPointF(at, seen.bottom()));
-    drawHaloText(&painter, {at, seen.bottom() - 8}, fieldNumber(x, decimals), font,
-                 theme().fieldLines, halo);
   });
-  each(top, [&](double y, bool zero) {
+  grid.each(grid.top, [&](double y) {
     const double at = std::round(sceneToView.map(QPointF(0, y)).y());
-    painter.setPen(QPen(zero ? axis : line, 1));
+    painter.setPen(QPen(y == 0.0 ? axis : line, 1));
     painter.drawLine(QPointF(seen.left(), at), QPointF(seen.right(), at));
-    if (at < seen.bottom() - 20) {
-      drawHaloText(&painter, {seen.left() + 14, at}, fieldNumber(y, decimals), font,
-                   theme().fieldLines, halo);
-    }
   });
+  for (const GridLabel& label : gridLabels(style, sceneToView, area)) {
+    drawHaloText(&painter, label.box.center(), label.text, gridFont(), theme().fieldLines,
+                 theme().fieldBorder);
+  }
   painter.setRenderHint(QPainter::Antialiasing, true);
 }
 
 }  // namespace
+
+std::vector<GridLabel> gridLabels(const FieldStyle& style, const QTransform& sceneToView,
+                                  const QRectF& area) {
+  const Grid grid = gridOf(style, sceneToView, area);
+  const QRectF& seen = grid.seen;
+  const QFontMetricsF metrics(gridFont());
+  constexpr double halo = 2.0;  // px around the text
+  std::vector<GridLabel> labels;
+  const auto add = [&](const QPointF& centre, double value) {
+    const QString text = fieldNumber(value, grid.decimals);
+    QRectF box(0, 0, textLineWidth(gridFont(), text) + 2 * halo, metrics.ascent() + 2 * halo);
+    box.moveCenter(centre);
+    // Beside its line rather than cut at the edge of what is seen.
+    if (box.right() > seen.right()) box.moveRight(seen.right());
+    if (box.left() < seen.left()) box.moveLeft(seen.left());
+    if (box.top() < seen.top()) box.moveTop(seen.top());
+    if (seen.contains(box)) labels.push_back({box, text});
+  };
+  grid.each(grid.right, [&](double x) {
+    const double at = std::round(sceneToView.map(QPointF(x, 0)).x());
+    if (at >= seen.left() && at <= seen.right()) add({at, seen.bottom() - 8}, x);
+  });
+  grid.each(grid.top, [&](double y) {
+    const double at = std::round(sceneToView.map(QPointF(0, y)).y());
+    if (at >= seen.top() && at < seen.bottom() - 20) add({seen.left() + 14, at}, y);
+  });
+  return labels;
+}
 
 void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
                           const QRectF& area) {

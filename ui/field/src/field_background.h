@@ -6,6 +6,7 @@
 
 #include <QPixmap>
 #include <QTransform>
+#include <vector>
 
 #include "field_style.h"
 
@@ -14,6 +15,15 @@ namespace pitchboard::ui {
 /// Paints all of it into `area` (pixels of the painter); `sceneToView` maps metres to pixels.
 void paintFieldBackground(QPainter& painter, const FieldStyle& style, const QTransform& sceneToView,
                           const QRectF& area);
+
+/// A number at a line of the coordinate grid, in pixels; metres.
+struct GridLabel {
+  QRectF box;
+  QString text;
+};
+/// Returns the numbers of the lines that are seen, all of them whole and inside `area`.
+std::vector<GridLabel> gridLabels(const FieldStyle& style, const QTransform& sceneToView,
+                                  const QRectF& area);
 
 /// The pixmap of it for one view; painted again when anything it depends on has changed.
 class FieldBackground {

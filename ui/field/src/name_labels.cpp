@@ -145,10 +145,10 @@ std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRec
   return placed;
 }
 
-std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
-                                   std::vector<QRectF> taken) {
+std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, const QRectF& area,
+                                   DirectionsBefore& before, std::vector<QRectF> taken) {
   std::vector<PlacedName> placed;
-  Search search{robots, {}, std::move(taken), steps_px.size()};
+  Search search{robots, area, std::move(taken), steps_px.size()};
   DirectionsBefore kept;
   for (const NamedRobot& robot : robots) {
     if (robot.name.isEmpty() || !needsName(robot, robots)) continue;
@@ -195,7 +195,7 @@ void NameLabelsItem::place() {
     taken.push_back(boxOf(tag.centre, robot->tag));
   }
   std::vector<Label> labels;
-  for (const PlacedName& name : placeNames(named, m_before, std::move(taken))) {
+  for (const PlacedName& name : placeNames(named, area, m_before, std::move(taken))) {
     const auto robot = std::ranges::find(m_robots, name.id, &Robot::id);
     const auto screen = std::ranges::find(named, name.id, &NamedRobot::id);
     labels.push_back(

@@ -40,9 +40,10 @@ using DirectionsBefore = std::map<RobotUid, int>;
 /// robots that share a tag only the first has a place: in the middle of them.
 std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRectF& area,
                                   DirectionsBefore& before);
-/// Places for the names of those that need one; `taken` is not written on.
-std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, DirectionsBefore& before,
-                                   std::vector<QRectF> taken = {});
+/// Returns places for the names of those that need one, inside `area` (null: everywhere); `taken`
+/// is not written on.
+std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, const QRectF& area,
+                                   DirectionsBefore& before, std::vector<QRectF> taken = {});
 
 class NameLabelsItem : public FieldItem {
  public:

@@ -34,6 +34,14 @@ std::vector<LiveTrouble> troublesOf(const link::LiveDetails& details,
   }
   if (isShared && !details.sharedPorts.empty())
     add(QStringLiteral("shared"), QString::fromStdString(details.sharedPorts));
+  for (const link::TopicSourceStatus& source : details.topics) {
+    const QString address = QString::fromStdString(source.source.address.text());
+    if (source.client.state == telemetry::FoxgloveState::Waiting)
+      add(address, QString::fromStdString(source.client.problem) + QStringLiteral(" (retrying)"));
+    else if (!source.client.serverText.empty())
+      add(address,
+          address + QStringLiteral(": ") + QString::fromStdString(source.client.serverText));
+  }
   if (frame == nullptr) return all;
   if (frame->reception.conflict)
     add(QStringLiteral("referee"), QStringLiteral("A second referee program is sending"));
@@ -77,6 +85,26 @@ QString sentText(const link::SentStatus& sent) {
 }
 
 }  // namespace
+
+QString topicsText(const link::TopicSourceStatus& source) {
+  const telemetry::FoxgloveClientStatus& client = source.client;
+  if (client.state != telemetry::FoxgloveState::Connected) {
+    return client.problem.empty() ? QStringLiteral("connecting…")
+                                  : QString::fromStdString(client.problem);
+  }
+  QString text =
+      QStringLiteral(
+          "%1, %2 of %3 topics, %4/s, %5 dropped, %6 bad, delay %7 ms above the shortest, clock "
+          "offset %8 s, loss unknown")
+          .arg(QString::fromStdString(client.server), QString::number(source.decoded),
+               QString::number(source.channels), numberText(source.rate, 1),
+               countText(client.dropped), countText(client.malformed + source.wrong),
+               numberText(source.delay * 1000, 0), numberText(source.clockOffset, 3));
+  for (const std::string& reason : source.unread) {
+    text += QStringLiteral("\nnot read: ") + QString::fromStdString(reason);
+  }
+  return text;
+}
 
 double RateWindow::look(double seconds, quint64 count) {
   constexpr double window = 5.0;  // s
@@ -161,6 +189,10 @@ LiveStatusText LiveStatus::update(const link::LiveDetails& details, const link::
                .arg(countText(details.ignoredSimulated));
   }
   for (const link::SentStatus& sent : details.sent) tip << sentText(sent);
+  for (const link::TopicSourceStatus& source : details.topics) {
+    tip << QString::fromStdString(source.source.address.text()) + QStringLiteral(": ") +
+               topicsText(source);
+  }
   text.tip = tip.join(QLatin1Char('\n'));
   return text;
 }

@@ -248,8 +248,15 @@ QStringList ChartPane::captions() const {
   } else if (any(&CurveTrace::coarse)) {
     all << QStringLiteral("envelope: zoom in to see every sample");
   }
-  const auto isDrawn = [](const CurveTrace& trace) { return trace.any; };
-  if (std::ranges::any_of(m_comparedTraces, isDrawn)) {
+  // A session that ends before what is shown is not drawn, nor is a future that begins behind it.
+  const telemetry::TimeRange shown = m_feed->time()->range();
+  const double from = std::max(m_feed->comparedFrom(), shown.begin);
+  const auto isDrawn = [from](const CurveTrace& trace) {
+    const auto isBehind = [from](const auto& point) { return point.time > from; };
+    return trace.any && (std::ranges::any_of(trace.samples, isBehind) ||
+                         std::ranges::any_of(trace.columns, isBehind));
+  };
+  if (shown.end > from && std::ranges::any_of(m_comparedTraces, isDrawn)) {
     all << (m_feed->comparesFuture() ? QStringLiteral("dashed: ") : QStringLiteral("thin: ")) +
                m_feed->comparedCaption();
   }

@@ -379,7 +379,8 @@ QString AxesDialog::Axis::problem() const {
   if (!fixed->isChecked()) return {};
   const auto lower = numberFromText(low->text()), upper = numberFromText(high->text());
   if (!lower || !upper) return QStringLiteral("Both limits must be numbers.");
-  return *lower < *upper ? QString() : QStringLiteral("The first limit must be the smaller one.");
+  return *lower < *upper ? QString()
+                         : QStringLiteral("The first limit must be smaller than the second.");
 }
 
 ValueLimits AxesDialog::Axis::limits() const {

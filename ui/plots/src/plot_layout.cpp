@@ -133,7 +133,7 @@ bool readLimits(const JsonObject& o, std::string_view key, ValueLimits& limits) 
   if (values == nullptr || values->empty()) return false;
   limits = {values->front().number, values->back().number};
   if (values->size() != 2 || !(limits.low < limits.high)) {
-    o.fail(key, "needs two numbers, the smaller one first");
+    o.fail(key, "needs two numbers, the smaller first");
   }
   return true;
 }

@@ -33,6 +33,7 @@
 #include "curve_template.h"
 #include "plot_feed.h"
 #include "plot_page.h"
+#include "plot_pane.h"
 
 namespace pitchboard::ui {
 namespace {
@@ -122,6 +123,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
   connect(context.shown, &ShownMoment::marksChanged, this, &PlotsDock::scheduleDraw);
   if (context.plots != nullptr) {
     connect(context.plots, &PlotTarget::requested, this, &PlotsDock::plotVariables);
+    connect(context.plots, &PlotTarget::overRequested, this, &PlotsDock::plotOver);
   }
   connect(context.shown, &ShownMoment::timesOfDayChanged, this, &PlotsDock::scheduleDraw);
   connect(context.shown, &ShownMoment::sourceChosen, this, &PlotsDock::takeWindow);
@@ -370,6 +372,30 @@ void PlotsDock::plotVariables(const QStringList& names) {
   if (auto* dock = qobject_cast<QDockWidget*>(parentWidget())) {
     dock->show();
     dock->raise();
+  }
+}
+
+void PlotsDock::plotOver(const QString& group, const QString& other, const QStringList& columns) {
+  m_feed->refresh();
+  for (const PlotPage* page : pages()) {
+    for (PlotPane* pane : page->panes()) {
+      if (pane->kind() == PaneKind::Xy) continue;
+      // As they are drawn: the description may be of the first robot, whoever that is.
+      QList<CurveSpec> drawnCurves;
+      for (const Curve& curve : pane->curves()) drawnCurves << curve.spec();
+      for (const CurveSpec& curve : drawnCurves) {
+        if (curve.kind != CurveKind::Variable || curve.inputs.size() != 1) continue;
+        const QString& input = curve.inputs.front();
+        const qsizetype slash = input.indexOf(QLatin1Char('/'));
+        const QString drawn = input.left(slash), column = input.mid(slash + 1);
+        if ((drawn != group && drawn != other) || !columns.contains(column)) continue;
+        CurveSpec over =
+            variableCurve((drawn == group ? other : group) + QLatin1Char('/') + column);
+        over.side = curve.side;
+        over.style = curve.style;
+        pane->addCurve(over);
+      }
+    }
   }
 }
 

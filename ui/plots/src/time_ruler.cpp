@@ -40,7 +40,10 @@ std::vector<AxisTick> TimeRuler::labels() const {
   const TimeAxis axis = m_axis();
   const std::vector<Tag> covering = tags();
   const QFont font = themeFont(TypeRole::Small);
+  // Nothing has a time before the beginning.
+  const double first = std::min(0.0, m_feed->time()->data().value_or(axis.shown).begin);
   std::erase_if(shown, [&](const AxisTick& tick) {
+    if (!m_feed->clock() && tick.time < first - 1e-9) return true;
     const double wide = textLineWidth(font, tick.label) + scaled(this, 6);
     const QRectF box(axis.pixel(tick.time) - wide / 2, 0, wide, height());
     return std::ranges::any_of(covering,

@@ -54,8 +54,8 @@ void tagProcesses(CardState& card, const link::RobotFrame& robot) {
       card.tag = QStringLiteral("%1 not responding").arg(name);
     } else if (card.tag.isEmpty() && keepsRealTime(one)) {
       card.tagKind = TagKind::Warning;
-      card.tag = QStringLiteral("%1 keeps real time").arg(name);
-      card.tagTip = QStringLiteral("%1 %2 keeps real time: %3")
+      card.tag = QStringLiteral("%1 uses real time").arg(name);
+      card.tagTip = QStringLiteral("%1 %2 uses real time: %3")
                         .arg(card.name, name, QString::fromUtf8(link::whyRealTime(one.clock)));
     } else if (card.tag.isEmpty() && one.isTeamProgram && one.achieved > 0.0 &&
                one.achieved < 0.95 * one.speed) {

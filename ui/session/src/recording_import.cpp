@@ -4,25 +4,11 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QProgressDialog>
-#include <QStandardPaths>
 
 #include <robotlink/import/import_session.h>
+#include <ui/base/cache_folder.h>
 
 namespace pitchboard::ui {
-namespace {
-
-/// The cache is on the disk, where a folder for temporary files may be in memory.
-std::unique_ptr<QTemporaryDir> importFolder() {
-  const QString cache = QStandardPaths::writableLocation(QStandardPaths::CacheLocation);
-  if (!cache.isEmpty() && QDir().mkpath(cache)) {
-    auto made = std::make_unique<QTemporaryDir>(cache + QStringLiteral("/import-XXXXXX"));
-    if (made->isValid()) return made;
-  }
-  return std::make_unique<QTemporaryDir>();
-}
-
-}  // namespace
-
 RecordingImport::RecordingImport(QWidget* window) : QObject(window), m_window(window) {}
 
 RecordingImport::~RecordingImport() {
@@ -52,7 +38,7 @@ void RecordingImport::showProgress(const QString& path) {
 
 void RecordingImport::start(const QString& path) {
   if (m_cancelled) *m_cancelled = true;
-  if (!m_folder) m_folder = importFolder();
+  if (!m_folder) m_folder = makeCacheFolder(QStringLiteral("import"));
   m_cancelled = std::make_shared<std::atomic<bool>>(false);
   showProgress(path);
   // The window's title and the export dialog call the session by the recording's name.

@@ -97,7 +97,7 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
           [this](const QString& sentence) { m_notices->show({notesTopic}, sentence); });
   connect(replay, &ReplayController::opened, this, [this] {
     const QString before = std::exchange(m_before, QString());
-    if (!before.isEmpty() && before != m_replay->path()) emit replaced();
+    if (!before.isEmpty() && before != m_replay->recording()) emit replaced();
     m_shown->choose(m_replay);
     showTitle();
     if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
@@ -135,8 +135,10 @@ SessionFiles::~SessionFiles() {
 }
 
 void SessionFiles::showTitle() {
-  const QString file =
-      m_shown->source() == m_replay ? QFileInfo(m_replay->path()).fileName() : QString();
+  QString file =
+      m_shown->source() == m_replay ? QFileInfo(m_replay->recording()).fileName() : QString();
+  if (!file.isEmpty() && m_replay->recording() != m_replay->path())
+    file += QStringLiteral(" with a rerun");
   const QString program = QStringLiteral("Pitchboard");
   m_window->setWindowTitle(file.isEmpty() ? program : QStringLiteral("%1 — %2").arg(file, program));
 }
@@ -163,7 +165,7 @@ void SessionFiles::showImported(const QString& recording, const QString& session
                      .arg(QFileInfo(recording).fileName());
   if (!notes.isEmpty()) text += QLatin1Char(' ') + shortened(notes);
   m_notices->show({importTopic}, text);
-  m_before = m_replay->path();
+  m_before = m_replay->recording();
   m_replay->open(session);
 }
 
@@ -171,7 +173,7 @@ void SessionFiles::open(const QString& path) {
   m_notices->settle(repairedTopic);
   m_notices->settle(importTopic);
   if (RecordingImport::isOfOthers(path)) return m_import->start(path);
-  m_before = m_replay->path();
+  m_before = m_replay->recording();
   m_replay->open(path);
 }
 

@@ -178,7 +178,7 @@ void VideoWriter::finish() {
   if (!m_active || m_ending) return;
   m_ending = true;
   if (m_pictures == 0) {
-    fail(QStringLiteral("There is nothing to show in this range. Choose another one."));
+    fail(QStringLiteral("There is nothing to show in this range. Choose another range."));
     return;
   }
   m_process.closeWriteChannel();

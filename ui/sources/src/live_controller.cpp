@@ -180,6 +180,7 @@ void LiveController::deliver() {
   if (m_frame) {
     emit frameReceived(m_frame);
   }
+  if (!news.lines.empty()) emit logReceived(news.lines);
   const std::vector<link::MatchEvent>& events = news.events;
   // A receiver may have stopped it.
   if (!m_watch || events.empty()) return;

@@ -42,6 +42,7 @@ LiveSettings loadLiveSettings(const QSettings& settings) {
     o.team.battery = usual.team.battery;
     o.team.teams.clear();
     o.boards.clear();
+    o.foxglove.clear();
   }
   return live;
 }

@@ -102,6 +102,7 @@ struct ReplayController::File {
   std::vector<link::MatchEvent> events;
   std::vector<LogLine> log;
   std::string scenario;
+  QString recording;
   bool broken = false;
   bool growing = false;
   bool live = false;   ///< moments are made of datagrams, which only the file holds
@@ -154,6 +155,10 @@ void ReplayController::dropPages() {
   m_pages.reset();
 }
 
+QString ReplayController::recording() const {
+  return m_file ? m_file->recording : QString();
+}
+
 telemetry::SessionInfo ReplayController::info() const {
   return m_file ? m_file->info : telemetry::SessionInfo{};
 }
@@ -197,10 +202,10 @@ std::optional<QDateTime> ReplayController::clock() const {
   return dateTimeOf(m_file->info.start);
 }
 
-void ReplayController::open(const QString& path) {
+void ReplayController::open(const QString& path, const QString& recording) {
   const std::uint64_t mine = ++m_generation;
   m_opening = true;
-  m_seeker.start([this, path, mine, budget = m_budget] {
+  m_seeker.start([this, path, recording, mine, budget = m_budget] {
     auto session = telemetry::SessionReader::open(path.toStdString());
     QString problem;
     std::shared_ptr<File> file;
@@ -236,7 +241,7 @@ void ReplayController::open(const QString& path) {
       file->broken = !file->session.complete() && !file->growing;
       file->unrepeatable = !link::isRunRepeatable(path.toStdString()).value_or(true);
     }
-    m_toUi.post([this, file, problem, path, mine] {
+    m_toUi.post([this, file, problem, path, recording, mine] {
       if (mine != m_generation) return;
       m_opening = false;
       if (!file) {
@@ -244,6 +249,7 @@ void ReplayController::open(const QString& path) {
         return;
       }
       m_path = path;
+      file->recording = recording.isEmpty() ? path : recording;
       take(file);
     });
     if (!file || !file->paged) return;
@@ -387,7 +393,8 @@ void ReplayController::page() {
 
 void ReplayController::keepBookmark(const link::MatchEvent& bookmark) {
   if (!m_file) return;
-  const auto kept = telemetry::addSessionNote(m_path.toStdString(), bookmark.time, bookmark.detail);
+  const auto kept =
+      telemetry::addSessionNote(recording().toStdString(), bookmark.time, bookmark.detail);
   if (kept) return;
   QString reason = QString::fromStdString(kept.error().text());
   if (!reason.endsWith(QLatin1Char('.'))) reason += QLatin1Char('.');

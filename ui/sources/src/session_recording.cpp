@@ -143,9 +143,10 @@ QString SessionRecording::newPath(const QString& title) {
 
 bool SessionRecording::makeFolder(const QDir& folder) {
   if (folder.mkpath(QStringLiteral("."))) return true;
-  emit failed(QStringLiteral("Cannot record: could not create the folder %1. Choose another one in "
-                             "Timeline > Folder for recordings…")
-                  .arg(folder.path()));
+  emit failed(
+      QStringLiteral("Cannot record: could not create the folder %1. Choose another folder in "
+                     "Timeline > Folder for recordings…")
+          .arg(folder.path()));
   return false;
 }
 
@@ -252,9 +253,9 @@ void SessionRecording::begin(const QString& path,
   const bool live = observers == nullptr && m_shown->source() == m_live;
   auto made = live ? recordLive(path) : recordMatch(path, observers);
   if (!made) {
-    emit failed(QStringLiteral(
-                    "Cannot record: %1. Choose another folder in Timeline > Folder for recordings…")
-                    .arg(textOf(made.error())));
+    emit failed(
+        QStringLiteral("Cannot record: %1. The folder is set in Timeline > Folder for recordings…")
+            .arg(textOf(made.error())));
     return;
   }
   m_recorder = std::move(*made);
@@ -288,7 +289,7 @@ void SessionRecording::finish(bool matchEnds) {
       emit saved(path);
       if (!matchEnds) return;
       emit noted(m_recorder && !m_recorder->live
-                     ? QStringLiteral("Another match began, so recording goes on in %1. The file "
+                     ? QStringLiteral("Another match began, so recording continues in %1. The file "
                                       "of the match before is complete: %2")
                            .arg(m_path, path)
                      : QStringLiteral("The recording ended with the match: %1").arg(path));

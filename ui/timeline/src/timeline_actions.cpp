@@ -95,7 +95,7 @@ void TimelineActions::refresh() {
   const bool past = m_shown->chosenTime().has_value();
   const QString isNewest = past ? QString() : QStringLiteral("The newest moment is shown already");
   enableUnless(*m_now, !m_shown->kind().hasPresent
-                           ? QStringLiteral("A recording has ended: it has no newest moment")
+                           ? QStringLiteral("A recording is shown, which has no newest moment")
                            : isNewest);
   enableUnless(*m_steps[1], isNewest);
   enableUnless(*m_steps[3], isNewest);

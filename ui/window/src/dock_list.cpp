@@ -10,6 +10,8 @@
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/processes_dock.h>
 #include <ui/referee/referee_panel.h>
+#include <ui/rerun/rerun_dialog.h>
+#include <ui/rerun/rerun_dock.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
@@ -62,6 +64,12 @@ QWidget* experiments(const StudioParts& s, QWidget* parent) {
 QWidget* explore(const StudioParts& s, QWidget* parent) {
   return makeExploreDock({s.explorer, s.shown}, parent);
 }
+QWidget* rerun(const StudioParts& s, QWidget* parent) {
+  return makeRerunDock({s.rerunner, s.shown,
+                        [asked = RerunDialogParts{s.rerunner, s.shown, s.selection, s.settings},
+                         parent] { showRerunDialog(asked, parent->window()); }},
+                       parent);
+}
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.shown, parent);
 }
@@ -83,6 +91,7 @@ std::span<const DockInfo> studioDocks() {
       {"badMessages", "Bad messages", Qt::BottomDockWidgetArea, false, badMessages},
       {"log", "Log", Qt::BottomDockWidgetArea, true, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments, false, 300},
+      {"rerun", "Rerun", Qt::BottomDockWidgetArea, false, rerun, false, 300},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;

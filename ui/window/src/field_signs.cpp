@@ -215,7 +215,7 @@ QWidget* makeNobodyPlaysSign(FrameSource* source, QWidget* canvas) {
   sign->textNow = [source] {
     const FramePtr frame = source->frame();
     return frame && frame->nobodyPlays
-               ? QStringLiteral("No robot was told to play: choose rules in the Referee panel")
+               ? QStringLiteral("No robot has been told to play. Choose rules in the Referee panel")
                : QString();
   };
   sign->place = [sign, canvas](QSize text) {

@@ -31,6 +31,7 @@
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/orphan_notice.h>
+#include <ui/rerun/rerunner.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/abandoned_future.h>
@@ -126,6 +127,11 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   m_tests = new SituationTests({m_shown, controller, m_replay, settings}, this);
   m_explorer = new Explorer({m_shown, controller, m_replay}, this);
+  m_rerunner = new Rerunner({m_shown, m_replay, m_time, m_plots}, this);
+  m_work.add(m_rerunner, [this] {
+    return m_rerunner->isRunning() ? QStringLiteral("A rerun is running. Quitting cancels it.")
+                                   : QString();
+  });
   m_work.add(m_recording, [this] {
     return m_recording->isRecording()
                ? QStringLiteral("A recording is running. Quitting ends it and keeps the file %1.")
@@ -163,9 +169,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   connect(m_sessions, &SessionFiles::replaced, m_compared, &ComparedSession::stop);
   connect(m_replay, &ReplayController::opened, this, [this] {
     QStringList recent = recentSessions();
-    recent.removeAll(m_replay->path());
-    recent.prepend(m_replay->path());
-    rememberFolderOf(m_replay->path());
+    recent.removeAll(m_replay->recording());
+    recent.prepend(m_replay->recording());
+    rememberFolderOf(m_replay->recording());
     constexpr qsizetype most = 8;
     m_settings->setValue(recentSessionsKey, recent.mid(0, most));
   });
@@ -212,6 +218,7 @@ void MainWindow::shutDown() {
   delete m_files;
   qDeleteAll(std::exchange(m_docks, {}));
   delete m_explorer;
+  delete m_rerunner;
   delete m_bar;
   delete m_status;
   delete m_notices;
@@ -228,9 +235,9 @@ void MainWindow::shutDown() {
 }
 
 StudioParts MainWindow::parts() {
-  return {m_controller, m_shown,           m_selection, m_field,     m_time,     m_settings,
-          m_plots,      m_timelineActions, m_replay,    m_recording, m_live,     m_overlay,
-          m_compared,   m_future,          m_tests,     m_boards,    m_explorer, &m_work};
+  return {m_controller,      m_shown,  m_selection, m_field,    m_time,    m_settings, m_plots,
+          m_timelineActions, m_replay, m_recording, m_live,     m_overlay, m_compared, m_future,
+          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work};
 }
 
 QStringList MainWindow::recentSessions() const {

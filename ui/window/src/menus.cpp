@@ -21,9 +21,11 @@
 #include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
 #include <ui/live/attach_dialog.h>
+#include <ui/live/foxglove_dialog.h>
 #include <ui/live/live_settings_dialog.h>
 #include <ui/plots/plot_menus.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/rerun/rerun_dialog.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/compared_session.h>
@@ -300,6 +302,10 @@ void StudioMenus::makeLive() {
   menu->addAction(
       QStringLiteral("&Attach blackboard…"), &m_window,
       [window = &m_window, boards = m_parts.boards] { showAttachDialog(boards, window); });
+  menu->addAction(QStringLiteral("Add &Foxglove bridge…"), &m_window,
+                  [window = &m_window, parts = m_parts] {
+                    showFoxgloveDialog(parts.live, parts.settings, window);
+                  });
 }
 
 void StudioMenus::makeSimulation() {
@@ -403,6 +409,23 @@ void StudioMenus::makeTimeline() {
   QObject::connect(shown, &ShownMoment::sourceChanged, goOn, refresh);
   QObject::connect(menu, &QMenu::aboutToShow, goOn, refresh);
   menu->addSeparator();
+  Rerunner* rerunner = m_parts.rerunner;
+  const RerunDialogParts asked{rerunner, shown, m_parts.selection, m_parts.settings};
+  QAction* rerun = menu->addAction(QStringLiteral("Re&run with…"), &m_window,
+                                   [this_ = &m_window, asked] { showRerunDialog(asked, this_); });
+  rerun->setObjectName(QStringLiteral("rerunWith"));
+  rerun->setToolTip(
+      QStringLiteral("Runs the recording through a program again and compares what it decides"));
+  const auto showRerun = [rerun, rerunner] { enableUnless(*rerun, rerunner->whyNot()); };
+  QObject::connect(rerunner, &Rerunner::changed, rerun, showRerun);
+  showRerun();
+  for (QDockWidget* dock : m_context.docks) {
+    if (dock->objectName() != QLatin1String("rerun")) continue;
+    QObject::connect(rerunner, &Rerunner::finished, dock, [dock] {
+      dock->show();
+      dock->raise();
+    });
+  }
   ComparedSession* compared = m_parts.compared;
   QAction* compare =
       menu->addAction(QStringLiteral("Co&mpare with session…"), sessions, [sessions, compared] {

@@ -161,7 +161,7 @@ void StudioStatusBar::showSource() {
   }
   if (!m_context.shown->kind().hasPresent) {
     m_pace->setText(
-        QStringLiteral("Replay of %1").arg(QFileInfo(m_context.replay->path()).fileName()));
+        QStringLiteral("Replay of %1").arg(QFileInfo(m_context.replay->recording()).fileName()));
     m_world->setText(QStringLiteral("%1 of %2")
                          .arg(momentText(m_context.shown->time(), 2, m_context.shown->clock()),
                               momentText(m_context.shown->now(), 0, m_context.shown->clock())));

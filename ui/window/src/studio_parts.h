@@ -19,6 +19,7 @@ class LiveOverlay;
 class MatchController;
 class PlotTarget;
 class ReplayController;
+class Rerunner;
 class RobotSelection;
 class RunningWork;
 class SessionRecording;
@@ -45,6 +46,7 @@ struct StudioParts {
   SituationTests* tests = nullptr;      ///< moments that are saved as tests
   AttachedBoards* boards = nullptr;     ///< blackboards of this computer
   Explorer* explorer = nullptr;         ///< what may follow the moment shown
+  Rerunner* rerunner = nullptr;         ///< the recording through a process again
   RunningWork* work = nullptr;          ///< what closing the window would end
 };
 

@@ -358,7 +358,7 @@ void TransportBar::showTransport() {
   // nothing jumps when somebody looks back.
   const bool usable = past != nullptr || m_context.shown->source() == m_context.controller;
   const QString why =
-      !usable ? QStringLiteral("Live goes on by itself. Look back on the timeline to play its past")
+      !usable  ? QStringLiteral("Live cannot be paused. Look back on the timeline to play its past")
       : !there ? QStringLiteral("Nothing to play yet")
                : QString();
   const QString whyNoStep =

@@ -10,9 +10,9 @@
 
 #include <base/angles.h>
 #include <robotlink/calibrate/calibration_file.h>
-#include <robotlink/report/distributions.h>
 #include <simcore/world/action_codes.h>
 #include <simcore/world/parameters.h>
+#include <telemetry/statistics/distributions.h>
 
 #include "calibration_check.h"
 #include "kick_fit.h"
@@ -217,8 +217,8 @@ void reportSpreads(std::span<const MotionFilter> filters, std::span<const Calibr
     const auto sigma = [&](double freedom) { return speed * std::sqrt(squares / freedom); };
     out.estimates.push_back(
         {std::string(motionParameters[parameter].key) + ": spread between actions", sigma(n - 1.0),
-         sigma(chiSquaredQuantile(n - 1.0, 0.975)), sigma(chiSquaredQuantile(n - 1.0, 0.025)),
-         all.size(), "actions"});
+         sigma(telemetry::chiSquaredQuantile(n - 1.0, 0.975)),
+         sigma(telemetry::chiSquaredQuantile(n - 1.0, 0.025)), all.size(), "actions"});
   }
 }
 
@@ -248,14 +248,14 @@ void reportLeftOut(std::span<const MotionFilter> filters, std::span<const Calibr
       before = std::move(cause);
     }
     const FilterDecisions& decisions = fit.ofLogs[f].decisions;
-    const auto note = [&](std::size_t count, const std::string& what) {
+    const auto note = [&](const std::string& what, std::size_t count) {
       if (count == 0) return;
-      out.notes.push_back(logs[f].session + ": " + std::to_string(count) + ' ' + what);
+      out.notes.push_back(logs[f].session + ": " + what + ": " + std::to_string(count) + '.');
     };
-    note(decisions.outliers, "measurements were left out as outliers.");
-    note(decisions.imuResets, "times the IMU was reset.");
-    note(decisions.ballMoves, "times the ball was moved.");
-    note(decisions.jumps, "times the robot was carried or lost its place.");
+    note("Measurements left out as outliers", decisions.outliers);
+    note("Resets of the IMU", decisions.imuResets);
+    note("Moves of the ball by hand", decisions.ballMoves);
+    note("Times the robot was carried or lost its position", decisions.jumps);
   }
 }
 

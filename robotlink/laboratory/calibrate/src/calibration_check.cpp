@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <robotlink/report/distributions.h>
+#include <telemetry/statistics/distributions.h>
 
 #include "gait_step.h"
 
@@ -143,7 +143,7 @@ void describeResiduals(const MotionFit& motion, Calibration& out) {
     }
     std::ranges::sort(all);
     for (double z = -2.0; z <= 2.01; z += 0.5) {
-      const double at = normalCdf(z) * (count - 1.0);
+      const double at = telemetry::normalCdf(z) * (count - 1.0);
       residuals.quantiles.push_back(all[static_cast<std::size_t>(at)]);
     }
     out.residuals.push_back(std::move(residuals));

@@ -238,7 +238,7 @@ Result<CalibrationLog> checkedLog(CalibrationLog log) {
     log.notes.emplace_back(text);
   } else if (gaps > 0) {
     std::snprintf(text, sizeof text,
-                  "%s has %zu gaps of more than %.1f s; the fit starts anew after each.",
+                  "%s has %zu gaps of more than %.1f s; the fit starts again after each.",
                   log.session.c_str(), gaps, maxGap);
     log.notes.emplace_back(text);
   }

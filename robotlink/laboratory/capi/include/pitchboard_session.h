@@ -66,6 +66,17 @@ PB_API pb_status pb_session_rows(pb_session* session, int32_t group, const int32
  * the row's time, then all columns; NaN if there is no row or a value is unknown. */
 PB_API pb_status pb_session_frame(pb_session* session, double time, pb_data** data);
 
+/** The mean of samples that follow each other at even steps, and how sure it is: as many
+ * independent samples would say as much (`effective`), and the 95 % confidence interval that
+ * follows, which is NaN if `effective` is below 2. NaN samples are unknown. docs/statistics.md has
+ * the formulas. */
+typedef struct pb_mean {
+  size_t size; /**< sizeof(pb_mean) */
+  double effective, low, high;
+} pb_mean;
+/** Writes to `mean`, whose `size` has to be set before. */
+PB_API pb_status pb_mean_interval(const double* values, size_t count, pb_mean* mean);
+
 /** Writes an array of the data to `span`. */
 PB_API pb_status pb_data_span(const pb_data* data, size_t index, pb_span* span);
 /** Null is allowed. */

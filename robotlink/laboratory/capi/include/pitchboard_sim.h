@@ -24,7 +24,7 @@ extern "C" {
 
 /** Increases when functions, columns or members are added. Existing ones never change; a change
  *  that breaks programs would change the library's name (libpitchboard_sim.so.1). */
-#define PB_API_VERSION 3
+#define PB_API_VERSION 4
 
 /** Instead of the index of a world: all worlds. */
 #define PB_ALL (-1)

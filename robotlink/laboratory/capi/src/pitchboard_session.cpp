@@ -20,6 +20,7 @@
 #include <telemetry/series/group_order.h>
 #include <telemetry/series/losable.h>
 #include <telemetry/session/session_reader.h>
+#include <telemetry/statistics/curve_statistics.h>
 
 #include "c_interface.h"
 
@@ -318,6 +319,22 @@ pb_status pb_session_frame(pb_session* session, double time, pb_data** data) {
   return readSession(session, data, [&](const SessionReader& reader) -> Result<DataParts> {
     const TimeRange range = TRY(rangeOf(time, time));
     return frameOf(reader, range.end);
+  });
+}
+
+pb_status pb_mean_interval(const double* values, size_t count, pb_mean* mean) {
+  return guarded([&] {
+    if (mean == nullptr) return missing("mean");
+    if (mean->size != sizeof(pb_mean)) {
+      return reportStatus(PB_INVALID_ARGUMENT,
+                          "set size to sizeof(pb_mean) of this version's header before");
+    }
+    if (values == nullptr && count > 0) return missing("values");
+    const telemetry::MeanInterval found = telemetry::intervalOfMean(spanOf(values, count));
+    mean->effective = found.effective;
+    mean->low = found.low;
+    mean->high = found.high;
+    return reportStatus(PB_OK, "");
   });
 }
 

@@ -180,8 +180,7 @@ pb_status pb_create(const pb_options* options, pb_worlds** worlds) {
     *worlds = nullptr;
     if (options == nullptr) return missing("options");
     if (options->size != sizeof(pb_options)) {
-      return reportStatus(PB_INVALID_ARGUMENT,
-                          "these options were not filled by pb_options_init()");
+      return reportStatus(PB_INVALID_ARGUMENT, "call pb_options_init() on these options first");
     }
     const auto scenario = scenarioOf(*options);
     if (!scenario) return reportStatus(tl::unexpected(scenario.error()));
@@ -399,7 +398,7 @@ pb_status pb_rollouts_create(const pb_rollout_options* options, pb_rollouts** ro
     if (options == nullptr) return missing("options");
     if (options->size != sizeof(pb_rollout_options)) {
       return reportStatus(PB_INVALID_ARGUMENT,
-                          "these options were not filled by pb_rollout_options_init()");
+                          "call pb_rollout_options_init() on these options first");
     }
     const auto made = [&]() -> Result<std::shared_ptr<LockedRollouts>> {
       Scenario scenario = TRY(scenarioOf(options->scenario, options->text, "match"));
@@ -440,7 +439,7 @@ pb_status pb_rollouts_play(pb_rollouts* rollouts, const pb_play_options* options
   return withRollouts(rollouts, [&](LockedRollouts& r) -> Result<void> {
     if (options == nullptr) return refusal("options must not be null");
     if (options->size != sizeof(pb_play_options)) {
-      return refusal("these options were not filled by pb_play_options_init()");
+      return refusal("call pb_play_options_init() on these options first");
     }
     const auto belief =
         TRY(readBelief(r.beginning, spanOf(robots, robot_count), spanOf(game, game_count)));

@@ -10,7 +10,7 @@
 #include <base/lined_json.h>
 #include <base/try.h>
 #include <robotlink/experiment/statistics.h>
-#include <robotlink/report/quantile.h>
+#include <telemetry/statistics/quantile.h>
 
 #include "numbers.h"
 
@@ -180,10 +180,10 @@ double statisticOf(std::string_view statistic, std::span<const double> values, b
   if (statistic == "n") return static_cast<double>(sorted.size());
   if (statistic == "mean") return momentsOf(sorted).mean;
   if (statistic == "sd") return momentsOf(sorted).deviation;
-  if (statistic == "min") return quantile(sorted, 0.0);
-  if (statistic == "max") return quantile(sorted, 1.0);
-  if (statistic == "median") return quantile(sorted, 0.5);
-  return quantile(sorted, (10 * (statistic[1] - '0') + (statistic[2] - '0')) / 100.0);
+  if (statistic == "min") return telemetry::quantile(sorted, 0.0);
+  if (statistic == "max") return telemetry::quantile(sorted, 1.0);
+  if (statistic == "median") return telemetry::quantile(sorted, 0.5);
+  return telemetry::quantile(sorted, (10 * (statistic[1] - '0') + (statistic[2] - '0')) / 100.0);
 }
 
 }  // namespace pitchboard::link

@@ -271,6 +271,11 @@ Result<void> discardResults(const std::string& folder) {
 
 Result<Experiment> experimentOf(const std::string& folder) {
   const std::string path = inFolder(folder, experimentFile);
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return failure(ErrorCode::NotFound, "no results found; is this the folder of an experiment?",
+                   folder);
+  }
   const auto text = TRY(readFile(path, maxExperimentBytes, "the experiment"));
   return experimentFromJson(text, path);
 }

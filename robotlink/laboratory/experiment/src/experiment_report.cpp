@@ -7,6 +7,7 @@
 
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report_page.h>
+#include <telemetry/statistics/histogram.h>
 
 #include "experiment_files.h"
 #include "numbers.h"
@@ -305,7 +306,7 @@ std::string distributionHtml(const ResultTable& table, const ExperimentSummary& 
   std::string bars;
   const std::size_t shown = std::min(s.conditions.size(), std::size(figureColours));
   for (std::size_t c = 0; c < shown; ++c) {
-    const auto counts = histogram(table.conditions[c].columns[m], low, high, bins);
+    const auto counts = telemetry::histogram(table.conditions[c].columns[m], low, high, bins);
     const double all = std::max<double>(1.0, static_cast<double>(s.conditions[c].runs));
     std::string line;
     const double step = (width - 2 * left) / static_cast<double>(bins);

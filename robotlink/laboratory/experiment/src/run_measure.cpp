@@ -10,8 +10,8 @@
 #include <base/try.h>
 #include <robotlink/experiment/checks.h>
 #include <robotlink/experiment/statistics.h>
-#include <robotlink/report/quantile.h>
 #include <robotlink/report/session_tally.h>
+#include <telemetry/statistics/quantile.h>
 
 namespace pitchboard::link {
 namespace {
@@ -111,7 +111,7 @@ double ReducedExpression::value() const {
   }
   std::vector<double> sorted = m_all;
   std::ranges::sort(sorted);
-  return quantile(sorted, 0.95);
+  return telemetry::quantile(sorted, 0.95);
 }
 
 void PathFollower::look(const Point& at, double tickTime) {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <random>
 
-#include <robotlink/report/distributions.h>
-#include <robotlink/report/quantile.h>
+#include <telemetry/statistics/distributions.h>
+#include <telemetry/statistics/quantile.h>
 
 namespace pitchboard::link {
 namespace {
@@ -47,7 +47,7 @@ bool hasSpread(const SampleMoments& sample) {
 
 /// Wilson's score interval.
 Interval scoreInterval(const SampleMoments& rate) {
-  static const double z = normalQuantile(1.0 - tail);
+  static const double z = telemetry::normalQuantile(1.0 - tail);
   const double n = static_cast<double>(rate.count), p = rate.mean;
   const double middle = p + z * z / (2.0 * n);
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
@@ -94,13 +94,13 @@ std::optional<Interval> intervalOfMean(std::span<const double> all) {
     mean = sum / static_cast<double>(values.size());
   }
   std::ranges::sort(means);
-  return Interval{quantile(means, tail), quantile(means, 1.0 - tail)};
+  return Interval{telemetry::quantile(means, tail), telemetry::quantile(means, 1.0 - tail)};
 }
 
 std::optional<Interval> intervalOfRate(const SampleMoments& rate) {
   if (rate.count < 2) return {};
-  const RateBounds bounds =
-      clopperPearson(static_cast<double>(successesOf(rate)), static_cast<double>(rate.count), tail);
+  const telemetry::RateBounds bounds = telemetry::clopperPearson(
+      static_cast<double>(successesOf(rate)), static_cast<double>(rate.count), tail);
   return Interval{bounds.low, bounds.high};
 }
 
@@ -109,12 +109,12 @@ Summary summaryOf(std::span<const double> all, bool rate) {
   out.moments = momentsOf(all);
   std::vector<double> values = finite(all);
   std::ranges::sort(values);
-  out.least = quantile(values, 0.0);
-  out.lowerQuartile = quantile(values, 0.25);
-  out.median = quantile(values, 0.5);
-  out.upperQuartile = quantile(values, 0.75);
-  out.p95 = quantile(values, 0.95);
-  out.most = quantile(values, 1.0);
+  out.least = telemetry::quantile(values, 0.0);
+  out.lowerQuartile = telemetry::quantile(values, 0.25);
+  out.median = telemetry::quantile(values, 0.5);
+  out.upperQuartile = telemetry::quantile(values, 0.75);
+  out.p95 = telemetry::quantile(values, 0.95);
+  out.most = telemetry::quantile(values, 1.0);
   out.mean95 = rate ? intervalOfRate(out.moments) : intervalOfMean(all);
   return out;
 }
@@ -129,9 +129,9 @@ std::optional<WelchTest> welchTest(const SampleMoments& a, const SampleMoments& 
   const double error = std::sqrt(va + vb);
   out.t = out.difference / error;
   out.freedom = (va + vb) * (va + vb) / (va * va / (na - 1.0) + vb * vb / (nb - 1.0));
-  out.p = std::min(1.0, 2.0 * studentTail(out.freedom, std::abs(out.t)));
-  out.criticalOne = studentUpperQuantile(out.freedom, 2.0 * tail);
-  out.criticalTwo = studentUpperQuantile(out.freedom, tail);
+  out.p = std::min(1.0, 2.0 * telemetry::studentTail(out.freedom, std::abs(out.t)));
+  out.criticalOne = telemetry::studentUpperQuantile(out.freedom, 2.0 * tail);
+  out.criticalTwo = telemetry::studentUpperQuantile(out.freedom, tail);
   out.difference95 = {out.difference - out.criticalTwo * error,
                       out.difference + out.criticalTwo * error};
   const double pooled =
@@ -148,7 +148,7 @@ double fisherTest(std::size_t successesA, std::size_t a, std::size_t successesB,
   const std::size_t least = successes + a > all ? successes + a - all : 0;
   const std::size_t most = std::min(successes, a);
   if (least == most) return 1.0;
-  const DrawnSuccesses tables{successes, a, all};
+  const telemetry::DrawnSuccesses tables{successes, a, all};
   // Equal probabilities may differ by rounding: R and scipy allow for that, too.
   const double limit = tables.probability(successesA) * (1.0 + 1e-7);
   const auto rare = [&](std::size_t x) { return tables.probability(x) <= limit; };
@@ -219,19 +219,6 @@ PairedDifference pairedDifference(std::span<const double> a, std::span<const dou
       std::ranges::any_of(differences, [&](double one) { return one != differences.front(); });
   if (vary) out.mean95 = intervalOfMean(differences);
   return out;
-}
-
-std::vector<std::size_t> histogram(std::span<const double> values, double low, double high,
-                                   std::size_t bins) {
-  std::vector<std::size_t> counts(bins, 0);
-  if (bins == 0) return counts;
-  for (const double value : values) {
-    if (!std::isfinite(value) || value < low || value > high) continue;
-    const double share = high > low ? (value - low) / (high - low) : 0.0;
-    const auto bin = static_cast<std::size_t>(share * static_cast<double>(bins));
-    ++counts[std::min(bin, bins - 1)];
-  }
-  return counts;
 }
 
 }  // namespace pitchboard::link

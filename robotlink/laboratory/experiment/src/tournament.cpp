@@ -8,7 +8,7 @@
 #include <base/csv_field.h>
 #include <base/lined_json.h>
 #include <robotlink/experiment/checks.h>
-#include <robotlink/report/quantile.h>
+#include <telemetry/statistics/quantile.h>
 
 #include "numbers.h"
 #include "run_layout.h"

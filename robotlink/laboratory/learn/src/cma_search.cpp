@@ -164,10 +164,11 @@ Result<void> CmaSearch::replay(const Generation& generation) {
                               [](double x, double y) { return std::abs(x - y) <= sameCoordinate; });
   };
   if (!std::ranges::equal(points, generation.points, same)) {
-    return failure(ErrorCode::Conflict,
-                   "generation " + std::to_string(m_generationsDone + 1) +
-                       " has other points than this search draws; it was begun by another version "
-                       "or with other settings");
+    return failure(
+        ErrorCode::Conflict,
+        "generation " + std::to_string(m_generationsDone + 1) +
+            " has other points than this search draws; it was started by another version "
+            "or with other settings");
   }
   return tell(generation.values);
 }

@@ -62,10 +62,11 @@ class Journal {
       return out;
     }
     if (!s.resume) {
-      return failure(ErrorCode::Conflict,
-                     "this folder holds what was learned; add --resume to go on, --force to start "
-                     "over, or choose another",
-                     s.folder);
+      return failure(
+          ErrorCode::Conflict,
+          "this folder holds a learning run; add --resume to continue it, --force to start "
+          "over, or choose another folder",
+          s.folder);
     }
     TRY(out.read());
     return out;
@@ -89,10 +90,11 @@ class Journal {
   Result<void> read() {
     const auto text = TRY(readFile(m_path, maxJournalBytes, "the journal"));
     if (!text.starts_with(m_text)) {
-      return failure(ErrorCode::Conflict,
-                     "this learning was begun by another version or with other settings; choose "
-                     "another folder",
-                     m_path);
+      return failure(
+          ErrorCode::Conflict,
+          "this learning run was started by another version or with other settings; choose "
+          "another folder",
+          m_path);
     }
     for (std::size_t at = m_text.size(); at < text.size();) {
       const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -172,11 +174,12 @@ class Learner {
     }
     const auto text = TRY(readFile(path, maxJournalBytes, "the file"));
     if (text == m_learning.text) return {};
-    return failure(ErrorCode::Conflict,
-                   "this folder holds what another file learned, or the same one before it was "
-                   "edited (its learn.json differs); add --force to start over, or choose another "
-                   "folder",
-                   m_settings.folder);
+    return failure(
+        ErrorCode::Conflict,
+        "this folder holds the learning run of another file, or of this one before it was "
+        "edited (its learn.json differs); add --force to start over, or choose another "
+        "folder",
+        m_settings.folder);
   }
 
   std::vector<double> valuesAt(const std::vector<double>& point) const {

@@ -66,7 +66,9 @@ class Feed {
   };
   /// Returns the variables that the chosen processes write.
   const std::vector<Output>& outputs() const { return m_outputs; }
-  std::uint32_t word(std::size_t output) const { return m_now[wordOf(output)]; }
+  std::uint32_t word(std::size_t output) const {
+    return m_now[static_cast<std::size_t>(wordOf(output))];
+  }
   std::uint32_t word(const Blackboard& board, std::size_t output) const;
   /// Returns whether the recorded value of this moment is one that the chosen processes wrote.
   bool counts(std::size_t output) const;

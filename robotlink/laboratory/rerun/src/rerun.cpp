@@ -2,6 +2,7 @@
 #include <robotlink/rerun/rerun.h>
 
 #include <numeric>
+#include <set>
 
 #include <base/try.h>
 #include <telemetry/session/session_export.h>
@@ -42,6 +43,21 @@ std::uint64_t RerunResult::unchangedToo() const {
 }
 std::uint64_t RerunResult::stretches() const {
   return sumOver(*this, &ComparedVariable::stretchCount);
+}
+
+Result<RerunPlan> planRerun(const telemetry::SessionReader& session, const RerunOptions& options) {
+  return RerunRun::plan(session, options);
+}
+
+std::vector<std::string> recordedProcesses(const telemetry::GroupInfo& robot) {
+  std::set<std::string> processes;
+  for (const telemetry::ColumnInfo& column : robot.columns) {
+    const bool isWord = column.type != telemetry::ColumnType::Float64;
+    if (!isWord && !VariableCatalog::extended().find(column.name)) continue;
+    const std::string writer = VariableMeanings::published().writers(column.name).writer;
+    if (!writer.empty()) processes.insert(writer);
+  }
+  return {processes.begin(), processes.end()};
 }
 
 Result<RerunResult> rerun(const telemetry::SessionReader& session, const RerunOptions& options) {

@@ -76,16 +76,44 @@ double numberOf(const Variable& variable, std::uint32_t word) {
 Result<std::unique_ptr<RerunRun>> RerunRun::create(const telemetry::SessionReader& session,
                                                    const RerunOptions& options) {
   std::unique_ptr<RerunRun> run(new RerunRun(session, options));
-  TRY(run->findRobot());
-  TRY(run->readCatalog());
-  TRY(run->readScenario());
-  run->measureRows();
-  run->knowRobot();
-  TRY(run->chooseProcesses());
-  TRY(run->chooseRange());
-  TRY(run->checkInputs());
+  TRY(run->prepare());
   TRY(run->openBoard());
   return run;
+}
+
+Result<void> RerunRun::prepare() {
+  TRY(findRobot());
+  TRY(readCatalog());
+  TRY(readScenario());
+  measureRows();
+  knowRobot();
+  TRY(chooseProcesses());
+  TRY(chooseRange());
+  return checkInputs();
+}
+
+Result<RerunPlan> RerunRun::plan(const telemetry::SessionReader& session,
+                                 const RerunOptions& options) {
+  RerunRun run(session, options);
+  TRY(run.prepare());
+  RerunPlan plan;
+  plan.robot = run.m_options.robot;
+  for (const Feed::Output& output : run.m_feed->outputs()) {
+    const std::string& name = output.variable.name;
+    const bool chosen = std::ranges::any_of(
+        options.writes, [&](const std::string& pattern) { return fitsWildcard(pattern, name); });
+    plan.outputs.push_back({name,
+                            VariableCatalog::extended().find(name) ? RerunPlan::Known::Map
+                            : chosen                               ? RerunPlan::Known::Chosen
+                                                                   : RerunPlan::Known::Name,
+                            output.isRecorded});
+  }
+  plan.missing = run.m_missing;
+  plan.notes = run.m_notes;
+  plan.start = run.m_start;
+  plan.begin = run.m_begin;
+  plan.end = run.m_end;
+  return plan;
 }
 
 void RerunRun::note(const std::string& sentence) {
@@ -296,6 +324,7 @@ Result<void> RerunRun::checkInputs() {
                          "; record the robot's blackboard, for example with pitchboard-agent.");
     }
     if (!missing.empty()) {
+      m_missing.insert(m_missing.end(), missing.begin(), missing.end());
       note("Not recorded, so " + choice.process + " reads 0: " + listed(missing) + ".");
     }
     const bool coarse = !m_hasWorld || m_rowInterval > 1.5 / m_tickRate;
@@ -380,6 +409,7 @@ Result<void> RerunRun::advanceTo(double time) {
       m_read = std::numeric_limits<double>::infinity();
       if (m_comparer) {
         m_comparer->finish();
+        if (m_sinceLast) m_sinceLast->finish();
         writeEvents();
       }
     }
@@ -415,6 +445,18 @@ Result<void> RerunRun::begin(const telemetry::RowView& row) {
   for (const Feed::Output& output : m_feed->outputs()) columns.push_back(output.column);
   m_comparer.emplace(columns, m_slack, m_options.unchanged, m_options.exact);
   m_values.resize(columns.size());
+  m_outputs = std::make_shared<RerunOutputs>();
+  m_outputs->begin = m_outputs->end = m_begin;
+  for (const telemetry::ColumnInfo& column : columns) {
+    m_kept.push_back(&m_outputs->changes[column.name]);
+    if (!m_options.last) continue;
+    const auto found = m_options.last->changes.find(column.name);
+    m_last.push_back({found == m_options.last->changes.end() ? nullptr : &found->second, 0});
+  }
+  m_lastValues.resize(columns.size());
+  if (m_options.last) {
+    m_sinceLast.emplace(columns, m_slack, m_options.unchanged, m_options.exact);
+  }
   m_paceTick = m_measuredTick = m_tick;
   m_paceBegin = m_measured = std::chrono::steady_clock::now();
   if (m_tick > 0 && std::ranges::any_of(m_choices, &RerunChoice::isInside)) {
@@ -520,8 +562,48 @@ void RerunRun::compare(const telemetry::RowView& row) {
                    m_feed->counts(i), recorded == rerun};
   }
   m_comparer->add(row.time, m_values);
+  if (m_sinceLast) compareWithLast(row.time);
+  keepOutputs(row.time);
   if (m_options.compared) m_options.compared(row.time, m_comparer->variables(), m_values);
   writeEvents();
+}
+
+/// The rows are those that the last rerun had, too.
+void RerunRun::compareWithLast(double time) {
+  const RerunOutputs& last = *m_options.last;
+  if (time < last.begin - rowTolerance || time > last.end + rowTolerance) return;
+  for (std::size_t i = 0; i < m_values.size(); ++i) {
+    LastOutput& before = m_last[i];
+    ComparedValue& value = m_lastValues[i] = m_values[i];
+    if (before.changes) {
+      while (before.next < before.changes->size() &&
+             (*before.changes)[before.next].time <= time + rowTolerance) {
+        ++before.next;
+      }
+    }
+    value.counts = value.counts && before.changes && before.next > 0;
+    if (!value.counts) continue;
+    value.recorded = (*before.changes)[before.next - 1].value;
+    value.isSame =
+        std::bit_cast<std::uint64_t>(value.recorded) == std::bit_cast<std::uint64_t>(value.rerun);
+  }
+  m_sinceLast->add(time, m_lastValues);
+  (void)m_sinceLast->drainBegun();
+}
+
+void RerunRun::keepOutputs(double time) {
+  if (m_changes >= RerunOutputs::maxChanges) return;  // what is known ends here
+  m_outputs->end = time;
+  for (std::size_t i = 0; i < m_values.size(); ++i) {
+    std::vector<RerunOutputs::Change>& changes = *m_kept[i];
+    const double now = m_values[i].rerun;
+    if (!changes.empty() &&
+        std::bit_cast<std::uint64_t>(changes.back().value) == std::bit_cast<std::uint64_t>(now)) {
+      continue;
+    }
+    changes.push_back({time, now});
+    ++m_changes;
+  }
 }
 
 /// Plays at the chosen speed, and looks after programs, progress and cancelling.
@@ -653,6 +735,8 @@ Result<RerunResult> RerunRun::finish() {
   result.sampledInputs = m_sampled;
   result.rowInterval = m_rowInterval;
   result.variables = m_comparer->variables();
+  result.outputs = m_outputs;
+  if (m_sinceLast) result.sinceLast = m_sinceLast->variables();
   return result;
 }
 

@@ -27,6 +27,8 @@ class RerunRun {
   /// `session` must outlive it.
   static Result<std::unique_ptr<RerunRun>> create(const telemetry::SessionReader& session,
                                                   const RerunOptions& options);
+  static Result<RerunPlan> plan(const telemetry::SessionReader& session,
+                                const RerunOptions& options);
 
   /// Where new rows and events go; null: nowhere.
   void setWriter(telemetry::SessionWriter* writer) { m_writer = writer; }
@@ -40,6 +42,7 @@ class RerunRun {
   RerunRun(const telemetry::SessionReader& session, const RerunOptions& options)
       : m_session(session), m_options(options) {}
 
+  Result<void> prepare();
   Result<void> findRobot();
   Result<void> readCatalog();
   Result<void> readScenario();
@@ -60,6 +63,8 @@ class RerunRun {
   Result<void> followSides(std::uint64_t tick);
   void planWrites(std::uint64_t tick);
   void compare(const telemetry::RowView& row);
+  void compareWithLast(double time);
+  void keepOutputs(double time);
   void writeRow(const telemetry::RowView& row);
   void writeEvents();
   RobotUid rerunUid() const;
@@ -84,7 +89,7 @@ class RerunRun {
   double m_rowInterval = 0.0;
   double m_start = 0.0, m_begin = 0.0, m_end = 0.0;  // s: played from, compared from and until
   double m_read = 0.0;                               // s: everything before it was played
-  std::vector<std::string> m_notes, m_sampled;
+  std::vector<std::string> m_notes, m_sampled, m_missing;
 
   // In this order: the programs end before the blackboard is removed.
   std::optional<MatchClaim> m_claim;
@@ -96,7 +101,16 @@ class RerunRun {
   std::vector<BlackboardWrite> m_planned;  // by time
   std::size_t m_nextPlanned = 0;
   std::optional<OutputComparer> m_comparer;
-  std::vector<ComparedValue> m_values;
+  std::vector<ComparedValue> m_values, m_lastValues;
+  std::optional<OutputComparer> m_sinceLast;
+  struct LastOutput {
+    const std::vector<RerunOutputs::Change>* changes = nullptr;  // null: the last one had none
+    std::size_t next = 0;                                        // of them
+  };
+  std::vector<LastOutput> m_last;  // for each output
+  std::shared_ptr<RerunOutputs> m_outputs;
+  std::vector<std::vector<RerunOutputs::Change>*> m_kept;  // in m_outputs, for each output
+  std::size_t m_changes = 0;                               // that are kept
   double m_slack = 0.0;
 
   // Pace.

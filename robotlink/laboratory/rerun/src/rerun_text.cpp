@@ -7,13 +7,18 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include <base/file_target.h>
+#include <base/read_file.h>
 #include <base/time_text.h>
+#include <base/try.h>
 #include <robotlink/report/report_page.h>
 
 namespace pitchboard::link {
 namespace {
 
 using RerunJson = nlohmann::ordered_json;
+
+constexpr std::size_t maxUnchangedBytes = std::size_t{64} << 20;
 
 std::size_t shownWidth(const std::string& text) {
   return static_cast<std::size_t>(
@@ -67,9 +72,9 @@ std::vector<std::string> rowOf(const ComparedVariable& variable) {
           largestText(variable)};
 }
 
-std::vector<const ComparedVariable*> differing(const RerunResult& result) {
+std::vector<const ComparedVariable*> differing(const std::vector<ComparedVariable>& variables) {
   std::vector<const ComparedVariable*> out;
-  for (const ComparedVariable& variable : result.variables) {
+  for (const ComparedVariable& variable : variables) {
     if (variable.differs()) out.push_back(&variable);
   }
   // The first difference matters most; later ones may follow from it.
@@ -78,35 +83,16 @@ std::vector<const ComparedVariable*> differing(const RerunResult& result) {
   return out;
 }
 
+std::string differingTable(const std::vector<const ComparedVariable*>& variables) {
+  std::vector<std::vector<std::string>> rows{
+      {"Variable", "First at", "Difference", "Times", "Duration", "Largest"}};
+  for (const ComparedVariable* one : variables) rows.push_back(rowOf(*one));
+  return '\n' + aligned(rows) + '\n';
+}
+
 std::size_t comparedVariables(const RerunResult& result) {
   return static_cast<std::size_t>(std::ranges::count_if(
       result.variables, [](const ComparedVariable& one) { return one.compared > 0; }));
-}
-
-/// What the numbers mean, in sentences.
-std::vector<std::string> verdicts(const RerunResult& result) {
-  std::vector<std::string> out;
-  std::string unchanged;
-  for (const ComparedVariable& one : result.variables) {
-    if (one.unchangedToo > 0) unchanged += (unchanged.empty() ? "" : ", ") + one.column.name;
-  }
-  if (!unchanged.empty()) {
-    out.push_back("Left out, because it differs without a change, too: " + unchanged + ".");
-  }
-  if (result.compared() == 0) {
-    out.emplace_back("Nothing was compared: the recording has none of the outputs.");
-  } else if (result.unequal() == 0) {
-    out.emplace_back("No value differs.");
-  } else if (result.stretches() == 0) {
-    out.push_back("No difference: " + countText(result.unequal(), "value is", "values are") +
-                  " not the same to the last bit, but within the tolerance" +
-                  (result.slack > 0.0 ? " and the time that a program may vary" : "") + ".");
-  } else if (result.isTooCoarse()) {
-    out.emplace_back(
-        "The recording lacks changes of what the process reads, so these differences are no "
-        "evidence about the program. Run the unchanged program with --same first.");
-  }
-  return out;
 }
 
 RerunJson numberJson(double value) {
@@ -173,21 +159,50 @@ ComparedVariable variableFrom(const nlohmann::json& json) {
 
 }  // namespace
 
+std::vector<std::string> rerunVerdicts(const RerunResult& result) {
+  std::vector<std::string> out;
+  std::string unchanged;
+  for (const ComparedVariable& one : result.variables) {
+    if (one.unchangedToo > 0) unchanged += (unchanged.empty() ? "" : ", ") + one.column.name;
+  }
+  if (!unchanged.empty()) {
+    out.push_back("Left out, because it differs without a change, too: " + unchanged + ".");
+  }
+  if (result.compared() == 0) {
+    out.emplace_back("Nothing was compared: the recording has none of the outputs.");
+  } else if (result.unequal() == 0) {
+    out.emplace_back("No value differs.");
+  } else if (result.stretches() == 0) {
+    out.push_back("No difference: " + countText(result.unequal(), "value is", "values are") +
+                  " not the same to the last bit, but within the tolerance" +
+                  (result.slack > 0.0 ? " and the time that a program may vary" : "") + ".");
+  } else if (result.isTooCoarse()) {
+    out.emplace_back(
+        "The recording lacks changes of what the process reads, so these differences are no "
+        "evidence about the program. Run the unchanged program with --same first.");
+  }
+  return out;
+}
+
 std::string rerunTable(const RerunResult& result) {
   std::string text = result.robot + " rerun (" + processesText(result) + "), " +
                      secondsToText(result.begin) + " to " + secondsToText(result.end) + ": " +
                      countText(result.compared(), "value", "values") + " of " +
                      countText(comparedVariables(result), "variable", "variables") + " compared, " +
                      (result.inLockStep ? "in lock-step" : "over time") + "\n";
-  const auto variables = differing(result);
-  if (!variables.empty()) {
-    std::vector<std::vector<std::string>> rows{
-        {"Variable", "First at", "Difference", "Times", "Duration", "Largest"}};
-    for (const ComparedVariable* one : variables) rows.push_back(rowOf(*one));
-    text += '\n' + aligned(rows) + '\n';
-  }
-  for (const std::string& sentence : verdicts(result)) text += sentence + '\n';
+  const auto variables = differing(result.variables);
+  if (!variables.empty()) text += differingTable(variables);
+  for (const std::string& sentence : rerunVerdicts(result)) text += sentence + '\n';
   return text;
+}
+
+std::string sinceLastTable(const RerunResult& result) {
+  if (!result.sinceLast) return {};
+  const auto variables = differing(*result.sinceLast);
+  if (variables.empty()) return "Since the last run: no difference.\n";
+  return "Since the last run, " +
+         countText(variables.size(), "variable differs:", "variables differ:") + '\n' +
+         differingTable(variables);
 }
 
 std::string rerunToJson(const RerunResult& result, std::string_view session) {
@@ -212,6 +227,13 @@ std::string rerunToJson(const RerunResult& result, std::string_view session) {
   RerunJson variables = RerunJson::array();
   for (const ComparedVariable& one : result.variables) variables.push_back(variableJson(one));
   out["variables"] = std::move(variables);
+  if (result.sinceLast) {
+    RerunJson since = RerunJson::array();
+    for (const ComparedVariable& one : *result.sinceLast) {
+      if (one.differs()) since.push_back(variableJson(one));
+    }
+    out["since_last"] = std::move(since);
+  }
   return out.dump(-1, ' ', false, RerunJson::error_handler_t::replace);
 }
 
@@ -227,9 +249,9 @@ std::string rerunReport(const RerunResult& result, std::string_view session) {
       (result.inLockStep ? "in lock-step" : "over time") + "</p>\n";
   for (const std::string& note : result.notes)
     out += "<p class=\"note\">" + escaped(note) + "</p>\n";
-  for (const std::string& one : verdicts(result))
+  for (const std::string& one : rerunVerdicts(result))
     out += "<p class=\"note\">" + escaped(one) + "</p>\n";
-  const auto variables = differing(result);
+  const auto variables = differing(result.variables);
   if (!variables.empty()) {
     out +=
         "<h2>Variables that differ</h2>\n<div class=\"scroll\"><table>\n<thead><tr>"
@@ -285,6 +307,24 @@ std::string unchangedPath(const std::string& session, const RerunOptions& option
   for (const RerunProcess& process : options.processes) name += '-' + process.name;
   std::ranges::replace(name, '/', '_');
   return (path.parent_path() / (name + ".same.json")).string();
+}
+
+Result<std::vector<ComparedVariable>> readUnchanged(const std::string& session,
+                                                    const RerunOptions& options) {
+  const std::string path = unchangedPath(session, options);
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) return std::vector<ComparedVariable>{};
+  const std::string text = TRY(readFile(path, maxUnchangedBytes));
+  return TRY(unchangedFromJson(text, path)).variables;
+}
+
+Result<std::string> keepUnchanged(const std::string& session, const RerunOptions& options,
+                                  const RerunResult& result) {
+  RerunOptions named = options;
+  named.robot = result.robot;
+  const std::string path = unchangedPath(session, named);
+  TRY(writeFile(path, rerunToJson(result, session) + '\n', IfExists::Replace));
+  return path;
 }
 
 }  // namespace pitchboard::link

@@ -19,6 +19,8 @@ link::Referee RolloutWorld::refereeFor(std::size_t i) const {
       return link::Referee::Set;
     case PlayState::Initial:
     case PlayState::Finished:
+    case PlayState::Standby:
+    case PlayState::Unknown:
       break;
   }
   return link::Referee::Stop;

@@ -137,9 +137,8 @@ Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t>
   }
   if (!isSigma(options.look)) return refuse("The time of the look must not be negative.", "look");
   if (out.size() != seeds.size() * columnCount) {
-    return refuse(
-        "There must be room for " + std::to_string(columnCount) + " numbers for each seed.",
-        "outcomes");
+    return refuse("The array must have " + std::to_string(columnCount) + " numbers for each seed.",
+                  "outcomes");
   }
   std::size_t points = 0;
   if (!trace.empty()) {
@@ -148,7 +147,7 @@ Result<void> Rollouts::play(const Belief& belief, std::span<const std::uint64_t>
     }
     points = tracePoints(options);
     if (trace.size() != seeds.size() * points) {
-      return refuse("There must be room for " + std::to_string(points) + " points for each seed.",
+      return refuse("The array must have " + std::to_string(points) + " points for each seed.",
                     "trace");
     }
   }

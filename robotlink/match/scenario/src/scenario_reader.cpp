@@ -8,6 +8,7 @@
 #include <base/read_file.h>
 #include <base/short_name.h>
 #include <resources/resources.h>
+#include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/field_text.h>
@@ -391,8 +392,26 @@ class Reader {
     return nullptr;
   }
 
+  /// Which number the text stands for, if the variable's values are codes with labels.
+  static std::string codeHint(const std::string& variable, const std::string& text) {
+    telemetry::ColumnInfo column;
+    column.name = variable;
+    VariableMeanings::published().describe(column);
+    std::vector<std::string_view> labels;
+    for (const auto& [code, label] : column.labels) {
+      if (label == text) return "; write " + std::to_string(code) + " for \"" + text + '"';
+      labels.emplace_back(label);
+    }
+    return labels.empty() ? std::string() : "; " + unknownName("code", text, labels);
+  }
+
   static double readValue(const JsonObject& object, std::string_view key,
                           const Variable& variable) {
+    if (const JsonNode* value = object.find(key);
+        value != nullptr && value->kind == JsonNode::Kind::Text) {
+      object.fail(key, "must be a number" + codeHint(variable.name, value->text));
+      return 0.0;
+    }
     if (variable.type == VariableType::Int) {
       return object.integer(key, 0, std::numeric_limits<std::int32_t>::min(),
                             std::numeric_limits<std::int32_t>::max());

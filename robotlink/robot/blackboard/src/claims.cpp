@@ -100,7 +100,7 @@ Result<BridgeClaim> BridgeClaim::take(int key) {
   return failure(ErrorCode::Conflict,
                  lock.holder.empty()
                      ? "another program is claiming or releasing this robot; try again"
-                     : "is being simulated already by " + lock.holder +
+                     : "is already being simulated by " + lock.holder +
                            "; end that one, or choose another robot number or match number",
                  context);
 }

@@ -25,7 +25,7 @@ Result<std::unique_ptr<ProgramClock>> ProgramClock::create() {
       besideTeamProgram(std::string("../" PITCHBOARD_LIBRARY_FOLDER "/") + library);
   if (::access(file.c_str(), R_OK) != 0) {
     return failure(ErrorCode::NotFound, "Cannot read " + file + ": " + systemReason(errno) +
-                                            ". Programs keep real time without it.");
+                                            ". Without it, programs use real time.");
   }
   UniqueFd memory(::memfd_create("pitchboard-time", MFD_CLOEXEC));
   if (!memory || ::ftruncate(memory.get(), sizeof(pitchboard_time_page)) != 0) {

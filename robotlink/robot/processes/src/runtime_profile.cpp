@@ -177,12 +177,19 @@ Result<RuntimeProfile> named(const std::string& nameOrPath) {
     return failure(ErrorCode::NotFound,
                    unknownName("built-in runtime profile and no file", name, runtimeNames()));
   }
-  const auto text = TRY(readFile(name, maxProfileBytes, "the runtime profile"));
-  auto profile = runtimeProfileFromJson(text, name);
+  // A program without a folder would be looked for in PATH.
+  const std::string asProgram = "it is a program, write program=" +
+                                (name.find('/') == std::string::npos ? "./" + name : name);
+  const bool isProfile = name.ends_with(".json");
+  const auto text = readFile(name, maxProfileBytes, "the runtime profile");
+  if (!text) {
+    if (isProfile) return tl::unexpected(text.error());
+    return failure(text.error().code, text.error().message + " If " + asProgram, name);
+  }
+  auto profile = runtimeProfileFromJson(*text, name);
   if (!profile) {
-    if (name.ends_with(".json")) return profile;
-    return failure(ErrorCode::ParseError,
-                   "is not a runtime profile; if it is a program, write program=" + name, name);
+    if (isProfile) return profile;
+    return failure(ErrorCode::ParseError, "is not a runtime profile; if " + asProgram, name);
   }
   // A folder, and a program with a folder, are meant from where the profile lies.
   const std::filesystem::path here = std::filesystem::path(name).parent_path();

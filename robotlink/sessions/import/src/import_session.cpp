@@ -9,13 +9,13 @@
 #include <robotlink/frame/join_boards.h>
 #include <robotlink/live/live_events.h>
 #include <robotlink/live/live_pipeline.h>
+#include <robotlink/live/topic_groups.h>
+#include <robotlink/live/topic_meanings.h>
+#include <robotlink/live/topic_robots.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/session_events.h>
 #include <telemetry/session/session_writer.h>
 #include <telemetry/wire/gamecontroller_encoder.h>
-
-#include "imported_groups.h"
-#include "imported_robots.h"
 
 namespace pitchboard::link {
 namespace {
@@ -26,8 +26,8 @@ using telemetry::RecordedMessage;
 using telemetry::RecordingReader;
 using telemetry::WallTime;
 
-constexpr double framePeriod = 0.1;      // s; events are found in frames
-constexpr double maxStampOffset = 60.0;  // s; beyond it, stamp and log time are of two clocks
+constexpr double robotTimeout = 2.0;  // s; then a robot is offline
+constexpr double framePeriod = 0.1;   // s; events are found in frames
 /// Times before this are not of a clock: seconds of the session are those of the recording.
 constexpr std::int64_t firstClockTime = 100'000'000LL * 1'000'000'000LL;
 constexpr std::uint64_t itemsBetweenReports = 1000;
@@ -51,8 +51,7 @@ class PipelineRecords : public LiveRecords {
 struct ImportSource {
   std::unique_ptr<RecordingReader> reader;
   RecordedItem item = RecordedItem::End;
-  std::optional<bool> usesStamps;  ///< with ImportClock::Auto: decided by the first stamp
-  std::uint64_t oddStamps = 0;
+  StampChoice stamps;     ///< with ImportClock::Auto
   std::int64_t time = 0;  ///< of the item, ns
 };
 
@@ -60,8 +59,7 @@ class SessionImport {
  public:
   SessionImport(std::vector<std::unique_ptr<RecordingReader>> readers, const ImportOptions& options)
       : m_options(options) {
-    for (auto& reader : readers)
-      m_sources.push_back({std::move(reader), RecordedItem::End, {}, 0, 0});
+    for (auto& reader : readers) m_sources.push_back({std::move(reader), RecordedItem::End, {}, 0});
   }
 
   Result<ImportReport> run(const std::string& path, const std::string& title,
@@ -104,10 +102,8 @@ class SessionImport {
       m_mapping = builtInMapping(topics);
     }
     if (!m_mapping.field.empty()) m_field = TRY(sim::fieldByName(m_mapping.field));
-    for (const ImportLog& log : m_mapping.log) {
-      m_logs.push_back({log.topic, ImportPath(log.text), ImportPath(log.level),
-                        ImportPath(log.origin), log.topic});
-    }
+    m_log.emplace(m_mapping);
+    if (m_mapping.referee) m_referee.emplace(*m_mapping.referee);
     return {};
   }
 
@@ -126,14 +122,7 @@ class SessionImport {
       return message.logTime;
     }
     if (m_options.clock == ImportClock::Header) return *message.stamp;
-    const double offset =
-        std::abs(static_cast<double>(*message.stamp) - static_cast<double>(message.logTime)) / 1e9;
-    const bool isNear = offset <= maxStampOffset;
-    if (!source.usesStamps) source.usesStamps = isNear;
-    if (!*source.usesStamps) return message.logTime;
-    if (isNear) return *message.stamp;
-    ++source.oddStamps;
-    return message.logTime;
+    return source.stamps.timeOf(message);
   }
 
   ImportSource* nextSource() {
@@ -174,9 +163,12 @@ class SessionImport {
     writing.level = 1;
     writing.chunkBytes = std::size_t{4} << 20;
     m_writer = TRY(telemetry::SessionWriter::create(path, info, writing));
-    m_groups.emplace(*m_writer);
-    m_robots.emplace(*m_writer, m_mapping, m_field,
-                     [this](const std::string& name) { return m_groups->freeName(name); });
+    m_groups.emplace(*m_writer, [this](const LogLine& line) { m_writer->append(line); });
+    TopicRobots::Options robots;
+    robots.field = m_field;
+    robots.timeout = robotTimeout;
+    robots.nameOf = [this](const std::string& name) { return m_groups->freeName(name); };
+    m_robots.emplace(*m_writer, m_mapping, std::move(robots));
     return {};
   }
 
@@ -195,39 +187,12 @@ class SessionImport {
     m_groups->take(static_cast<std::size_t>(&source - m_sources.data()), topic, message, time);
   }
 
-  struct LogPaths {
-    std::string topic;
-    ImportPath text, level, origin;
-    std::string fallback;
-  };
-
-  /// ROS 2 counts levels in tens, ROS 1 in powers of two.
-  static LogLevel levelOf(std::optional<double> code) {
-    if (!code) return LogLevel::Info;
-    const bool isRos1 = *code == 1 || *code == 2 || *code == 4 || *code == 8 || *code == 16;
-    const double level = isRos1 ? 10.0 * (1.0 + std::log2(*code)) : *code;
-    return level >= 50   ? LogLevel::Fatal
-           : level >= 40 ? LogLevel::Error
-           : level >= 30 ? LogLevel::Warning
-           : level >= 20 ? LogLevel::Info
-                         : LogLevel::Debug;
-  }
-
   bool takeLog(const telemetry::RecordedTopic& topic, const RecordedMessage& message, double time) {
-    for (const LogPaths& paths : m_logs) {
-      if (paths.topic != topic.name) continue;
-      const auto text = paths.text.text(message);
-      if (!text) continue;
-      LogLine line;
-      line.time = time;
-      line.text = *text;
-      line.origin = paths.origin.text(message).value_or(paths.fallback);
-      line.level = levelOf(paths.level.number(message));
-      m_writer->append(line);
-      ++m_logLines;
-      return true;
-    }
-    return false;
+    const auto line = m_log->lineOf(topic, message, time);
+    if (!line) return false;
+    m_writer->append(*line);
+    ++m_logLines;
+    return true;
   }
 
   /// A referee is received as in a live match.
@@ -263,42 +228,9 @@ class SessionImport {
     live.take({wallOf(m_now), datagram.sender, m_refereePort, false, datagram.payload});
   }
 
-  /// The mapping's referee, as a packet of the version that says most.
   void takeReferee(const telemetry::RecordedTopic& topic, const RecordedMessage& message) {
-    if (!m_mapping.referee || m_mapping.referee->topic != topic.name) return;
-    if (!m_refereePaths) m_refereePaths.emplace(*m_mapping.referee);
-    const RefereePaths& paths = *m_refereePaths;
-    const auto state = paths.state.number(message);
-    if (!state) return;
-    const auto whole = [&message](const ImportPath& path, int fallback, int most) {
-      return static_cast<int>(std::lround(
-          std::clamp(path.number(message).value_or(fallback), -1.0 * most, 1.0 * most)));
-    };
-    telemetry::RefereeState packet;
-    packet.version = 12;
-    packet.size = telemetry::refereePacketSize(packet.version, 688).value_or(0);
-    packet.state = std::clamp(static_cast<int>(std::lround(*state)), 0, 4);
-    packet.firstHalf = whole(paths.firstHalf, 1, 1) != 0 ? 1 : 0;
-    packet.secsRemaining = whole(paths.secondsLeft, 0, 32'767);
-    packet.packetNumber = m_refereePackets++ & 0xff;
-    packet.secState = packet.gameType = packet.dropInTeam = packet.secondaryTime = 0;
-    packet.dropInTime = -1;
-    packet.secStateInfo.emplace();
-    for (const bool right : {false, true}) {
-      telemetry::RefereeTeam& team = packet.teams[right ? 1 : 0];
-      team.number = right ? 2 : 1;
-      team.colour =
-          telemetry::colourCode(right ? m_mapping.referee->right : m_mapping.referee->left);
-      team.score = std::max(0, whole(right ? paths.rightScore : paths.leftScore, 0, 255));
-      team.penaltyShot = team.singleShots = 0;
-      team.slotCount = telemetry::refereeSlots(packet.version, packet.size);
-      for (std::size_t i = 0; i < team.slotCount; ++i) {
-        team.allSlots[i].number = static_cast<int>(i) + 1;
-        team.allSlots[i].warnings = team.allSlots[i].yellow = team.allSlots[i].red = 0;
-        team.allSlots[i].goalkeeper = 0;
-      }
-    }
-    const auto bytes = telemetry::encodeReferee(packet);
+    if (!m_referee) return;
+    const auto bytes = m_referee->packetOf(topic, message);
     if (!bytes) return;
     LivePipeline& live = pipeline();
     live.take({wallOf(m_now), {mappedReferee, m_refereePort}, m_refereePort, false, *bytes});
@@ -311,8 +243,8 @@ class SessionImport {
       return;
     }
     // In a silence the robots go offline.
-    if (now - *m_framed > 2.0 * ImportedRobots::timeout) {
-      frameAt(*m_framed + ImportedRobots::timeout + framePeriod);
+    if (now - *m_framed > 2.0 * robotTimeout) {
+      frameAt(*m_framed + robotTimeout + framePeriod);
     }
     if (now - *m_framed >= framePeriod) frameAt(now);
   }
@@ -366,13 +298,13 @@ class SessionImport {
     std::vector<std::string>& notes = m_report.notes;
     for (const ImportSource& source : m_sources) {
       for (std::string& note : source.reader->notes()) notes.push_back(std::move(note));
-      if (source.usesStamps == false) {
+      if (source.stamps.usesStamps() == false) {
         notes.push_back(
             "The headers' times are of another clock than the log times, so log times "
             "are used. Use --time header for the others.");
       }
-      if (source.oddStamps > 0) {
-        notes.push_back(std::to_string(source.oddStamps) +
+      if (source.stamps.odd() > 0) {
+        notes.push_back(std::to_string(source.stamps.odd()) +
                         " messages have a header time more than a minute from their log time, "
                         "which is used instead.");
       }
@@ -389,32 +321,21 @@ class SessionImport {
     return std::move(m_report);
   }
 
-  struct RefereePaths {
-    explicit RefereePaths(const ImportReferee& from)
-        : state(from.state),
-          secondsLeft(from.secondsLeft),
-          firstHalf(from.firstHalf),
-          leftScore(from.leftScore),
-          rightScore(from.rightScore) {}
-    ImportPath state, secondsLeft, firstHalf, leftScore, rightScore;
-  };
-
   const ImportOptions& m_options;
   std::vector<ImportSource> m_sources;
-  ImportMapping m_mapping;
+  TopicMapping m_mapping;
   sim::FieldSpec m_field;
-  std::vector<LogPaths> m_logs;
-  std::optional<RefereePaths> m_refereePaths;
+  std::optional<TopicLog> m_log;
+  std::optional<TopicReferee> m_referee;
   std::int64_t m_zero = 0;  ///< ns; second 0 of the session
   double m_now = 0.0;
   std::optional<double> m_first, m_framed;
   std::unique_ptr<telemetry::SessionWriter> m_writer;
-  std::optional<ImportedGroups> m_groups;
-  std::optional<ImportedRobots> m_robots;
+  std::optional<TopicGroups> m_groups;
+  std::optional<TopicRobots> m_robots;
   std::optional<LivePipeline> m_pipeline;
   std::shared_ptr<PipelineRecords> m_records;
   std::uint16_t m_refereePort = 0;
-  int m_refereePackets = 0;
   LiveEvents m_events;
   std::map<int, std::uint64_t> m_teamMessages;  ///< by team
   std::uint64_t m_badReplies = 0, m_logLines = 0;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include <robotlink/report/quantile.h>
+#include <telemetry/statistics/quantile.h>
 
 namespace pitchboard::link {
 namespace {
@@ -233,8 +233,8 @@ MatchStatistics MatchTally::statistics(telemetry::TimeRange range) const {
       }
       std::ranges::sort(sorted);
       s.errorMean = sum / static_cast<double>(sorted.size());
-      s.errorMedian = quantile(sorted, 0.5);
-      s.error90 = quantile(sorted, 0.9);
+      s.errorMedian = telemetry::quantile(sorted, 0.5);
+      s.error90 = telemetry::quantile(sorted, 0.9);
       s.errorEnd = robot.errors.back().second;
       for (std::size_t i = 0; i < statisticsParts; ++i) {
         s.errorCurve.push_back(counts[i] > 0 ? sums[i] / counts[i] : std::nan(""));

@@ -17,7 +17,7 @@ from typing import Any, Dict, Iterable, List, NoReturn, Optional, Sequence, Type
 import numpy as np
 import numpy.typing as npt
 
-API_VERSION = 3
+API_VERSION = 4
 SONAME = "libpitchboard_sim.so.1"
 NOT_FOUND, STALE = 2, 7
 
@@ -100,6 +100,17 @@ class Span(ctypes.Structure):
     ]
 
 
+class Mean(ctypes.Structure):
+    """pb_mean."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("effective", c_double),
+        ("low", c_double),
+        ("high", c_double),
+    ]
+
+
 #: The numpy type of each pb_type.
 DTYPES: List[npt.DTypeLike] = [np.uint8, np.int32, np.float32, np.float64]
 
@@ -141,6 +152,7 @@ _FUNCTIONS: Dict[str, List[Any]] = {
     "pb_session_events": [_HANDLE, c_double, c_double, _OUT],
     "pb_session_rows": [_HANDLE, c_int32, _ARRAY, c_size_t, c_double, c_double, c_int32, _OUT],
     "pb_session_frame": [_HANDLE, c_double, _OUT],
+    "pb_mean_interval": [_ARRAY, c_size_t, POINTER(Mean)],
     "pb_data_span": [_HANDLE, c_size_t, POINTER(Span)],
     "pb_data_free": [_HANDLE],
 }

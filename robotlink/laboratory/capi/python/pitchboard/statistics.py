@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Statistics of recordings, with intervals that know that neighbouring samples are alike."""
 
+import ctypes
 import math
 import os
 from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
@@ -8,13 +9,12 @@ from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ._library import PitchboardError, unknown_name
+from ._library import Mean, PitchboardError, address, check, lib, unknown_name
 from .session import Session, Variable, open
 from .table import Table, table_of
 
 _Recording = Union[Session, str, "os.PathLike[str]"]
 _PERCENTILES = {"p05": 5.0, "p25": 25.0, "median": 50.0, "p75": 75.0, "p95": 95.0}
-_Z95 = 1.959963984540054  # of the standard normal distribution
 
 
 def statistics(
@@ -94,7 +94,7 @@ def _rows_of(session: int, robot: str, variable: Variable) -> List[Dict[str, Any
         "share": _share(lasting, there),
         "n": some.size,
     }
-    row.update(_numbers(some, of_codes))
+    row.update(_numbers(values, of_codes))
     rows = [row]
     for code in np.unique(some) if of_codes else ():
         share = _share(lasting[there], some == code)
@@ -104,29 +104,29 @@ def _rows_of(session: int, robot: str, variable: Variable) -> List[Dict[str, Any
     return rows
 
 
-def _numbers(some: npt.NDArray[np.float64], of_codes: bool) -> Dict[str, float]:
+def _numbers(values: npt.NDArray[np.float64], of_codes: bool) -> Dict[str, float]:
+    """Of all samples in their order: unknown ones (NaN) are not neighbours of one another."""
     out = dict.fromkeys(
         ["n_effective", "mean", "mean_95_low", "mean_95_high", "sd", "min", *_PERCENTILES, "max"],
         math.nan,
     )
+    some = values[np.isfinite(values)]
     if some.size == 0 or of_codes:
         return out
-    effective = effective_samples(some)
-    out.update(n_effective=effective, mean=float(some.mean()), min=float(some.min()), max=float(some.max()))
+    mean = _mean_95(values)
+    out.update(n_effective=mean.effective, mean_95_low=mean.low, mean_95_high=mean.high)
+    out.update(mean=float(some.mean()), min=float(some.min()), max=float(some.max()))
     out.update(zip(_PERCENTILES, np.percentile(some, list(_PERCENTILES.values())).tolist()))
     if some.size > 1:
         out["sd"] = float(some.std(ddof=1))
-    if effective >= 2:
-        half = _student_95(effective - 1) * out["sd"] / math.sqrt(effective)
-        out.update(mean_95_low=out["mean"] - half, mean_95_high=out["mean"] + half)
     return out
 
 
 def _durations(time: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """A value holds until the next sample; the last one as long as samples usually do."""
+    """A value holds until the next sample, at most 10 s; the last one as long as samples usually do."""
     if time.size < 2:
         return np.ones(time.size)
-    steps = np.diff(time)
+    steps = np.minimum(np.diff(time), 10.0)
     return np.append(steps, np.median(steps))
 
 
@@ -135,36 +135,9 @@ def _share(lasting: npt.NDArray[np.float64], which: npt.NDArray[np.bool_]) -> fl
     return float(lasting[which].sum()) / whole if whole > 0 else math.nan
 
 
-def effective_samples(values: npt.NDArray[np.float64]) -> float:
-    """As many independent samples would give the mean as precisely as these, which follow each other.
-
-    values   shape (n,), n at least 1. Returns a number from 1 to n: n divided by 1 + 2 times the sum of
-    autocorrelations, which is cut where two neighbouring ones together are no longer positive, and
-    kept from growing (Geyer's initial monotone sequence).
-    """
-    count = values.size
-    centred = values - values.mean()
-    if count < 4 or not np.any(centred):
-        return float(count)
-    spectrum = np.fft.rfft(centred, 1 << (2 * count - 1).bit_length())
-    correlation = np.fft.irfft(spectrum * spectrum.conj())[:count]
-    # Each lag has fewer pairs than the one before; the mean that was subtracted was these samples' own.
-    correlation /= np.arange(count, 0, -1)
-    correlation /= correlation[0]
-    pairs = correlation[: count // 2 * 2].reshape(-1, 2).sum(axis=1)
-    positive = pairs <= 0
-    last = int(np.argmax(positive)) if positive.any() else pairs.size
-    time = 2.0 * float(np.minimum.accumulate(pairs[:last]).sum()) - 1.0
-    return min(float(count), max(1.0, count / time)) if time > 0 else float(count)
-
-
-def _student_95(freedom: float) -> float:
-    """The 97.5 % quantile of Student's distribution, by its expansion around the normal one; the error is
-    below 1 % from 3 degrees of freedom on."""
-    z = _Z95
-    terms = (
-        (z**3 + z) / 4,
-        (5 * z**5 + 16 * z**3 + 3 * z) / 96,
-        (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
-    )
-    return z + sum(term / freedom ** (i + 1) for i, term in enumerate(terms))
+def _mean_95(values: npt.NDArray[np.float64]) -> Mean:
+    """The effective samples and the interval of the mean, as every program of Pitchboard computes them."""
+    given = np.ascontiguousarray(values, dtype=np.float64)
+    mean = Mean(size=ctypes.sizeof(Mean))
+    check(lib.pb_mean_interval(address(given), given.size, ctypes.byref(mean)))
+    return mean

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What a live match tells: every datagram and how it was used, events, frames and rows as they
-// come, to observers; news and details on demand.
+// What a live match tells: every datagram and how it was used, messages of topics, events, log
+// lines, frames and rows as they come, to observers; news and details on demand.
 
 #include <cstdint>
 #include <memory>
@@ -16,6 +16,7 @@
 #include <robotlink/frame/teams.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/live_rows.h>
+#include <robotlink/live/live_topics.h>
 #include <robotlink/live/sent_boards.h>
 #include <telemetry/wire/gamecontroller.h>
 #include <telemetry/wire/referee_tracker.h>
@@ -35,24 +36,27 @@ struct LiveDetails {
   std::string unknownRefereeSample;
   Teams teams;  ///< for robotName()
   std::vector<AttachedStatus> boards;
-  std::vector<SentStatus> sent;        ///< variables that robots send
-  std::uint64_t badVariables = 0;      ///< invalid datagrams on the ports of variables
-  std::string badVariablesReason;      ///< for the last such datagram
-  std::uint64_t refusedVariables = 0;  ///< refused by the list of senders or the limit of robots
-  std::uint64_t ignoredSimulated = 0;  ///< of simulated matches, without LiveOptions::simulated
-  std::string sharedPorts;             ///< telemetry::sharedPortsText()
-  std::uint64_t refusedReferees = 0;   ///< refused by LiveOptions::refereeSenders
-  std::string monitorProblem;          ///< why the last monitor request could not be sent
-  LiveRows::Refused rows;              ///< rows and values beyond the limits, since clear()
+  std::vector<SentStatus> sent;           ///< variables that robots send
+  std::uint64_t badVariables = 0;         ///< invalid datagrams on the ports of variables
+  std::string badVariablesReason;         ///< for the last such datagram
+  std::uint64_t refusedVariables = 0;     ///< refused by the list of senders or the limit of robots
+  std::uint64_t ignoredSimulated = 0;     ///< of simulated matches, without LiveOptions::simulated
+  std::string sharedPorts;                ///< telemetry::sharedPortsText()
+  std::uint64_t refusedReferees = 0;      ///< refused by LiveOptions::refereeSenders
+  std::vector<TopicSourceStatus> topics;  ///< programs that send topics
+  std::string monitorProblem;             ///< why the last monitor request could not be sent
+  LiveRows::Refused rows;                 ///< rows and values beyond the limits, since clear()
 };
 
 /// What is new since the last call of LiveWatch::take().
 struct LiveNews {
-  static constexpr std::size_t maxEvents = 10'000;
+  static constexpr std::size_t maxEvents = 10'000, maxLines = 10'000;
   std::vector<MatchEvent> events;           ///< at most the newest maxEvents
+  std::vector<LogLine> lines;               ///< of robots' logs; at most the newest maxLines
   std::shared_ptr<const MatchFrame> frame;  ///< the newest frame; null before the first
 
   void add(std::vector<MatchEvent> later);
+  void add(std::vector<LogLine> later);
 };
 
 /// A received datagram and how it was decoded. Valid only during the call that passes it.
@@ -88,6 +92,10 @@ class LiveObserver {
   virtual ~LiveObserver() = default;
   /// Called for each datagram, except on the referee's port for those of refused senders.
   virtual void received(const LiveDatagram&) {}
+  /// Called for each message of a topic that was decoded.
+  virtual void decoded(const LiveTopicMessage&) {}
+  /// Called for each line of a robot's log.
+  virtual void logged(const LogLine&) {}
   virtual void happened(const MatchEvent&) {}
   virtual void frameMade(const MatchFrame&) {}
   /// Passes a checkpoint: the whole state as text (LiveState::text). Called first when the observer

@@ -11,6 +11,7 @@
 
 #include <base/options.h>
 #include <robotlink/live/attached_robots.h>
+#include <robotlink/live/foxglove_source.h>
 #include <simcore/world/field.h>
 #include <telemetry/pb2/pb2.h>
 #include <telemetry/wire/monitor_request.h>
@@ -40,6 +41,7 @@ struct LiveOptions {
   bool colourByNumber = false;           ///< the colour follows from the robot's number (published)
   sim::FieldSpec field;
   std::vector<AttachedBoard> boards;          ///< blackboards on this computer
+  std::vector<FoxgloveSource> foxglove;       ///< programs whose topics are shown
   std::vector<std::string> catalogs;          ///< files that list the variables robots send
   std::optional<telemetry::Address> monitor;  ///< referee to ask for monitor mode; empty: off
   std::uint16_t monitorPort = telemetry::monitorRequestPort;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The path of a live match from datagrams and samples of blackboards to robots, events, link
-// health, drawings and rows. LiveWatch feeds it from sockets, the command line also from files. It
-// has no thread, socket or clock; times are seconds since a moment of the source. Not thread-safe.
+// The path of a live match from datagrams, messages of topics and samples of blackboards to robots,
+// events, link health, drawings and rows. LiveWatch feeds it from sockets, the command line also
+// from files. It has no thread, socket or clock; times are seconds since a moment of the source.
+// Not thread-safe.
 
 #include <map>
 #include <memory>
@@ -18,6 +19,7 @@
 #include <robotlink/live/live_observer.h>
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_state.h>
+#include <robotlink/live/live_topics.h>
 #include <robotlink/live/robot_uids.h>
 #include <robotlink/live/sent_boards.h>
 
@@ -66,6 +68,14 @@ class LivePipeline {
 
   /// Takes a datagram. The port decides whether it comes from the referee.
   void take(const telemetry::DatagramView& received);
+  /// Takes what has come from a program of LiveOptions::foxglove, and how its connection is.
+  /// Returns to which of its channels to subscribe.
+  TopicRequest take(const FoxgloveSource& source, const telemetry::FoxgloveEvent& event) {
+    return m_topics.take(source, event);
+  }
+  void note(const FoxgloveSource& source, telemetry::FoxgloveClientStatus status) {
+    m_topics.note(source, std::move(status));
+  }
   /// Returns the frame of this moment, with the robots of `boards`. It changes nothing.
   MatchFrame frame(telemetry::WallTime now, const AttachedRobots* boards = nullptr) const;
   /// Does what is due: passes on rows, events and reports, and the frame, which it returns. The
@@ -108,6 +118,9 @@ class LivePipeline {
   std::optional<int> teamOf(int number, telemetry::Address sender) const;
   void notify(const LiveDatagram& datagram);
   void notify(const std::vector<MatchEvent>& events);
+  void notify(const LogLine& line);
+  LiveTopics::Outputs topicOutputs();
+  void useSources();
   void sendSnapshot(telemetry::WallTime now);
   void noteTeams();
 
@@ -122,6 +135,7 @@ class LivePipeline {
   LiveRows m_rows;
   bool m_hasNewNames = false;  // that the groups of rows do not have yet
   SentBoards m_sent;
+  LiveTopics m_topics;
   BoardRowKeeper m_boardRows, m_sentHealth;
   std::map<RobotUid, std::string> m_boardNames;  // robots whose blackboards are received
   std::map<std::string, BoardRowKeeper::Facts> m_boardFacts;  // the same, by GroupInfo::id

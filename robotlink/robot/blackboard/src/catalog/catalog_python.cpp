@@ -140,7 +140,7 @@ class PythonReader {
                         (ahead(2).text == "update" || ahead(2).text == "setdefault");
     if (method || assignsItem())
       return error(name, dictionary +
-                             " is changed by the program here, which cannot be followed; "
+                             " is changed by code here, which is not run; "
                              "write every variable into the dictionary");
     return std::nullopt;
   }
@@ -179,7 +179,7 @@ class PythonReader {
           number.kind == Token::Kind::Number ? parseIndex(number.text) : std::nullopt;
       if (!index)
         return error(number, "the index of " + quotedName(key) +
-                                 " must be a whole number from 0, written out");
+                                 " must be a whole number, 0 or more, without arithmetic");
       entries.push_back({std::string(key.text), type, *index, atLine(m_source, key.line)});
       const Token& after = ahead(3);
       if (after.kind == Token::Kind::End) return open;

@@ -5,7 +5,8 @@
 // library muParser parses and evaluates it. It knows + - * / ^, comparisons, && || ?:, the
 // functions of muParser (sin, cos, atan2, sqrt, abs, min, max, ...) and ours (!, hypot, deg, rad,
 // wrap(angle, turn), known), pi, and t, the time in s. Variables are written `GROUP.NAME`, or
-// `{GROUP/NAME}` for names with other characters. NaN is an unknown value: every operator and every
+// `{GROUP/NAME}` for names with other characters; a caller may say of which group names without one
+// are. NaN is an unknown value: every operator and every
 // function of one is NaN, except known() and the branch of ?: that is not taken (docs/plots.md). An
 // object may be used by one thread at a time.
 
@@ -21,8 +22,9 @@ namespace pitchboard::telemetry {
 
 class Expression {
  public:
-  /// Parses an expression. Fails with ParseError and the position of the mistake.
-  static Result<Expression> parse(std::string_view text);
+  /// Parses an expression. A name without a group is of `group`; if that is empty, it is a mistake.
+  /// Fails with ParseError and the position of the mistake.
+  static Result<Expression> parse(std::string_view text, std::string_view group = {});
   Expression(Expression&&) noexcept;
   Expression& operator=(Expression&&) noexcept;
   ~Expression();

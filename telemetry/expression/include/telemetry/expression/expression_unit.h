@@ -12,8 +12,8 @@
 
 namespace pitchboard::telemetry {
 
-/// Returns the unit of the variable `GROUP/NAME`: "1" for a number without a unit, such as a code;
-/// nothing if it is unknown.
+/// Returns the unit of the variable `GROUP/NAME`, or `NAME` if it is written without a group: "1"
+/// for a number without a unit, such as a code; nothing if it is unknown.
 using UnitOfVariable = std::function<std::optional<std::string>(const std::string& name)>;
 
 /// Returns the unit of the value of an expression (see Expression); "1" for a number without a

@@ -25,8 +25,8 @@ std::string troubleText(const SessionStatus& status);
 /// Returns the seconds until the disk is full at the current rate; empty while free space or rate
 /// are unknown.
 std::optional<double> secondsLeft(const SessionStatus& status);
-/// Returns "room for 3 h 20 min", or "52.3 GB free" while the rate is unknown; empty if the system
-/// does not report the free space.
+/// Returns "3 h 20 min until the disk is full", or "52.3 GB free" while the rate is unknown; empty
+/// if the system does not report the free space.
 std::string freeSpaceText(const SessionStatus& status);
 
 }  // namespace pitchboard::telemetry

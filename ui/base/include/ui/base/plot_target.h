@@ -20,9 +20,15 @@ class PlotTarget : public QObject {
   /// Shows `GROUP/COLUMN` variables in the plots. Curves of groups that do not exist yet appear
   /// later.
   virtual void plotVariables(const QStringList& names) { emit requested(names); }
+  /// Wherever a column of `group` is plotted by its name, draws that of `other` over it, if it is
+  /// one of `columns`.
+  void plotOver(const QString& group, const QString& other, const QStringList& columns) {
+    emit overRequested(group, other, columns);
+  }
 
  signals:
   void requested(const QStringList& names);
+  void overRequested(const QString& group, const QString& other, const QStringList& columns);
 };
 
 }  // namespace pitchboard::ui

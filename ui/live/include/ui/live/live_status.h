@@ -25,6 +25,10 @@ struct LiveTrouble {
   QString key, text;
 };
 
+/// Returns how a program that sends topics is received: "foxglove_bridge, 12 of 15 topics, ...".
+/// What is not read follows in lines of its own.
+QString topicsText(const link::TopicSourceStatus& source);
+
 /// Measures how fast a counter grows over the last five seconds.
 class RateWindow {
  public:

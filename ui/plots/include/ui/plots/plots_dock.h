@@ -80,6 +80,8 @@ class PlotsDock : public QWidget {
   QStringList variables() const;
   /// Adds curves to the current page and raises the dock.
   void plotVariables(const QStringList& names);
+  /// See PlotTarget::plotOver().
+  void plotOver(const QString& group, const QString& other, const QStringList& columns);
 
  protected:
   void showEvent(QShowEvent* event) override;

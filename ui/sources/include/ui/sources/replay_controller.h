@@ -23,12 +23,16 @@ class ReplayController : public FrameSource {
   ~ReplayController() override;
 
   /// Opens a file; returns immediately. `opened` or `failed` follows; after a failure the previous
-  /// session stays open. Calling open() again replaces a request that has not finished.
-  void open(const QString& path);
+  /// session stays open. Calling open() again replaces a request that has not finished. If the file
+  /// is a copy of a recording with more in it, such as a rerun, `recording` is the path of that.
+  void open(const QString& path, const QString& recording = {});
   void close();
   bool isOpen() const { return m_file != nullptr; }
   bool isOpening() const { return m_opening; }
   const QString& path() const { return m_path; }
+  /// Returns the recording that is shown: path(), or what that file is a copy of. It gives the
+  /// session its name and has its bookmarks.
+  QString recording() const;
   telemetry::SessionInfo info() const;
   /// Returns whether the file is truncated or damaged and can be repaired.
   bool isBroken() const;

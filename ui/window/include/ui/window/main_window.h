@@ -39,6 +39,7 @@ class NoticeBar;
 class PlotTarget;
 class PlotsDock;
 class ReplayController;
+class Rerunner;
 class RobotSelection;
 class ScenarioFiles;
 class SessionFiles;
@@ -154,6 +155,7 @@ class MainWindow : public QMainWindow {
   ScenarioFiles* m_files;
   SituationTests* m_tests;
   Explorer* m_explorer;
+  Rerunner* m_rerunner;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;

@@ -89,8 +89,4 @@ struct PairedDifference {
 /// `a` and `b` must have the same size. Pairs in which a value is not finite are ignored.
 PairedDifference pairedDifference(std::span<const double> a, std::span<const double> b);
 
-/// Counts the values in `bins` equal bins from `low` to `high`, both included.
-std::vector<std::size_t> histogram(std::span<const double> values, double low, double high,
-                                   std::size_t bins);
-
 }  // namespace pitchboard::link

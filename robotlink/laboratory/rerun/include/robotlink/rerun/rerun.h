@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,6 +37,18 @@ struct RerunProcess {
 /// Reads "decision=./decide.py". Fails with ParseError.
 Result<RerunProcess> rerunProcessFromText(std::string_view text);
 
+/// What a rerun wrote, from one change of an output to the next, for a comparison with the next
+/// rerun of the same recording.
+struct RerunOutputs {
+  static constexpr std::size_t maxChanges = 4'000'000;  ///< that are kept, of all outputs together
+  struct Change {
+    double time = 0.0;
+    double value = 0.0;
+  };
+  std::map<std::string, std::vector<Change>, std::less<>> changes;  ///< of each output
+  double begin = 0.0, end = 0.0;                                    ///< s, what is known
+};
+
 struct RerunOptions {
   std::string robot;  ///< "B1"
   std::vector<RerunProcess> processes;
@@ -53,6 +66,8 @@ struct RerunOptions {
   std::string robotProgram;  ///< pitchboard-robot; empty: the one beside this program
   /// Where the unchanged program differs, from an earlier rerun: left out.
   std::vector<ComparedVariable> unchanged;
+  /// What the last rerun wrote: RerunResult::sinceLast is the comparison with it. Null: none.
+  std::shared_ptr<const RerunOutputs> last;
 
   /// Called with sentences for people: before the start with what the recording lacks.
   std::function<void(const std::string&)> note;
@@ -78,6 +93,10 @@ struct RerunResult {
   std::vector<std::string> sampledInputs;
   double rowInterval = 0.0;  ///< s between two rows of the recording
   std::vector<ComparedVariable> variables;
+  std::shared_ptr<const RerunOutputs> outputs;  ///< what was written now
+  /// Where the outputs differ from those of the last rerun (RerunOptions::last), which stand for
+  /// the recorded ones; nothing if there was none.
+  std::optional<std::vector<ComparedVariable>> sinceLast;
 
   std::uint64_t compared() const;      ///< values
   std::uint64_t unequal() const;       ///< of them not the same to the last bit
@@ -86,6 +105,33 @@ struct RerunResult {
   /// Returns whether the recording may be the reason for differences.
   bool isTooCoarse() const { return !sampledInputs.empty(); }
 };
+
+/// What a rerun would do, as the recording and the map of variables tell before it starts.
+struct RerunPlan {
+  enum class Known {
+    Map,    ///< the published map and its extension name the writer
+    Name,   ///< a variable of the team: the beginning of its name does
+    Chosen  ///< RerunOptions::writes
+  };
+  struct Output {
+    std::string variable;
+    Known known = Known::Map;
+    bool isRecorded = false;  ///< otherwise there is nothing to compare it with
+  };
+  std::string robot;
+  std::vector<Output> outputs;       ///< what the processes write, in the order of the map
+  std::vector<std::string> missing;  ///< what they read and was not recorded: they read 0
+  std::vector<std::string> notes;    ///< sentences, as RerunOptions::note gets them
+  double start = 0.0, begin = 0.0, end = 0.0;  ///< s: played from, compared from and until
+};
+
+/// Tells what rerun() would do with these options; starts nothing. Fails as rerun() does before it
+/// starts.
+Result<RerunPlan> planRerun(const telemetry::SessionReader& session, const RerunOptions& options);
+
+/// Returns the processes that wrote variables of this robot, by name, sorted; empty if the
+/// recording has no variable that a rerun could use.
+std::vector<std::string> recordedProcesses(const telemetry::GroupInfo& robot);
 
 /// Runs a part of a session again. Fails with NotFound for unknown robots, processes and programs,
 /// with the names that are known; with InvalidArgument if the recording has none of the inputs;

@@ -16,6 +16,14 @@ namespace pitchboard::link {
 /// Returns what ran, a table of the variables that differ, and a sentence for what that means.
 std::string rerunTable(const RerunResult& result);
 
+/// Returns what the result means, in sentences: "No value differs.", what was left out, or why the
+/// differences are no evidence; none if there are differences that the program made.
+std::vector<std::string> rerunVerdicts(const RerunResult& result);
+
+/// Returns where the outputs differ from those of the last rerun, as a table or a sentence; empty
+/// if there was none.
+std::string sinceLastTable(const RerunResult& result);
+
 /// Returns the result as a JSON object; `session` is the name of its file.
 std::string rerunToJson(const RerunResult& result, std::string_view session);
 
@@ -34,5 +42,12 @@ Result<UnchangedRerun> unchangedFromJson(std::string_view json, std::string_view
 /// Returns the file beside a session in which `--same` keeps its result:
 /// "match.B1-decision.same.json".
 std::string unchangedPath(const std::string& session, const RerunOptions& options);
+/// Reads that file, for RerunOptions::unchanged; nothing if there is none. Fails as readFile() and
+/// unchangedFromJson() do.
+Result<std::vector<ComparedVariable>> readUnchanged(const std::string& session,
+                                                    const RerunOptions& options);
+/// Writes that file; an older one is replaced. Returns its path.
+Result<std::string> keepUnchanged(const std::string& session, const RerunOptions& options,
+                                  const RerunResult& result);
 
 }  // namespace pitchboard::link

@@ -14,7 +14,7 @@
 
 #include <base/file_target.h>
 #include <base/result.h>
-#include <robotlink/import/import_mapping.h>
+#include <robotlink/live/topic_mapping.h>
 
 namespace pitchboard::link {
 
@@ -26,7 +26,7 @@ enum class ImportClock : std::uint8_t {
 };
 
 struct ImportOptions {
-  std::optional<ImportMapping> mapping;  ///< empty: builtInMapping()
+  std::optional<TopicMapping> mapping;  ///< empty: builtInMapping()
   ImportClock clock = ImportClock::Auto;
   IfExists ifExists = IfExists::Refuse;
   std::string program = "pitchboard";  ///< name and version, for the session

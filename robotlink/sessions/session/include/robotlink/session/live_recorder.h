@@ -36,6 +36,7 @@ class LiveRecorder : public LiveRecords {
 
   // Called on the watch's thread.
   void happened(const MatchEvent& event) override;
+  void logged(const LogLine& line) override { m_writer->append(line); }
   std::shared_ptr<telemetry::RowSink> rows() override { return m_writer; }
 
   // Any thread.

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/query/find_moments.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include <base/csv_field.h>
+#include <base/try.h>
+
+#include "commands.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "session_options.h"
+
+namespace pitchboard::cli {
+namespace {
+
+using namespace telemetry;
+namespace fs = std::filesystem;
+
+struct FindCommand {
+  std::vector<std::string> places;  // files and folders, and at the end the condition
+  std::optional<double> least;
+  std::vector<std::string> robots;
+  bool json = false, csv = false, progress = false;
+  int jobs = 0;
+};
+
+/// Returns the recordings of a folder and the folders in it, in order of their names.
+Result<std::vector<std::string>> recordingsIn(const std::string& folder) {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           at(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && at != end; at.increment(error)) {
+    std::error_code unknown;
+    if (at->path().extension() == ".mcap" && at->is_regular_file(unknown)) {
+      out.push_back(at->path().string());
+    }
+  }
+  if (error) return failure(ErrorCode::SystemError, error.message() + ".", folder);
+  std::ranges::sort(out);
+  return out;
+}
+
+Result<std::vector<std::string>> recordingsOf(const std::vector<std::string>& places) {
+  std::vector<std::string> out;
+  for (const std::string& place : places) {
+    std::error_code unknown;
+    if (!fs::is_directory(place, unknown)) {
+      out.push_back(place);
+      continue;
+    }
+    const std::vector<std::string> found = TRY(recordingsIn(place));
+    if (found.empty()) {
+      return failure(ErrorCode::NotFound, "This folder has no recordings (*.mcap).", place);
+    }
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+void print(const std::string& file, const FoundMoment& moment, const FindCommand& command) {
+  if (command.json) {
+    nlohmann::ordered_json line{{"session", file},
+                                {"robot", moment.robot},
+                                {"from", moment.range.begin},
+                                {"until", moment.range.end}};
+    if (moment.value) {
+      line["value"] = *moment.value;
+      line["value_time"] = moment.valueAt;
+    }
+    std::printf(
+        "%s\n",
+        line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+  } else if (command.csv) {
+    std::printf("%s,%s,%.9g,%.9g,", csvField(file).c_str(), csvField(moment.robot).c_str(),
+                moment.range.begin, moment.range.end);
+    if (moment.value) std::printf("%.9g,%.9g", *moment.value, moment.valueAt);
+    std::printf("%s\n", moment.value ? "" : ",");
+  } else {
+    std::printf("%s: %s %.3f to %.3f s (%.3f s)", file.c_str(), moment.robot.c_str(),
+                moment.range.begin, moment.range.end, moment.range.end - moment.range.begin);
+    if (moment.value) std::printf(", worst %.4g at %.3f s", *moment.value, moment.valueAt);
+    std::printf("\n");
+  }
+}
+
+Result<int> findIn(const FindCommand& command) {
+  if (command.places.size() < 2) {
+    return failure(ErrorCode::InvalidArgument,
+                   "Give a folder or files, and then the condition, such as 'BELIEF_ERROR > 50'.");
+  }
+  FindOptions options;
+  options.condition = command.places.back();
+  options.least = command.least.value_or(0.0);
+  options.robots = command.robots;
+  options.threads = static_cast<unsigned>(command.jobs);
+  TRY(checkCondition(options));
+  const std::vector<std::string> files =
+      TRY(recordingsOf({command.places.begin(), command.places.end() - 1}));
+  const InterruptGuard signals;
+  Progress progress("searching", command.progress);
+  std::size_t moments = 0, unanswered = 0;
+  bool hasFailed = false;
+  std::optional<Error> noVariable;
+  if (command.csv) std::printf("session,robot,from,until,value,value_time\n");
+  const auto report = [&](std::size_t index, FileMoments&& found) {
+    const std::string& file = files[index];
+    const std::string fresh = progress.fresh();
+    if (found.isForeign) {
+      std::fprintf(stderr,
+                   "%swarning: %s: another program recorded this file; make a session of it with "
+                   "pitchboard-cli import.\n",
+                   fresh.c_str(), file.c_str());
+      ++unanswered;
+    } else if (found.error && found.error->code == ErrorCode::NotFound && fs::exists(file)) {
+      // A session of other robots may have nothing similar.
+      const bool isHint = found.error->message.find("did you mean") != std::string::npos;
+      if (!noVariable || isHint) noVariable = found.error;
+      ++unanswered;
+    } else if (found.error) {
+      (void)std::fputs(fresh.c_str(), stderr);
+      // Errors of a file begin with its name.
+      Error error = *found.error;
+      if (!error.context.starts_with(file)) {
+        error.context = error.context.empty() ? file : file + " " + error.context;
+      }
+      (void)reportError(error);
+      hasFailed = true;
+    }
+    hasFailed = hasFailed || found.isDamaged;
+    if (!found.isForeign && !found.error) {
+      for (const std::string& note : found.notes) {
+        std::fprintf(stderr, "%swarning: %s: %s\n", fresh.c_str(), file.c_str(), note.c_str());
+      }
+    }
+    moments += found.moments.size();
+    for (const FoundMoment& moment : found.moments) print(file, moment, command);
+    std::fflush(stdout);
+    (void)progress(static_cast<double>(index + 1) / static_cast<double>(files.size()));
+    return !interrupted;
+  };
+  TRY(findMoments(files, options, report, [] { return !interrupted; }));
+  if (interrupted) return failure(ErrorCode::Conflict, "Stopped before every file was read.");
+  if (noVariable && unanswered == files.size()) return tl::unexpected(*noVariable);
+  if (noVariable) {
+    std::fprintf(stderr, "%snote: %zu of %zu recordings do not have these variables or robots.\n",
+                 progress.fresh().c_str(), unanswered, files.size());
+  }
+  if (hasFailed) return shared::exitRefused;
+  return moments > 0 ? 0 : 1;
+}
+
+}  // namespace
+
+void addFindCommand(CLI::App& parent, int& exitCode) {
+  auto options = std::make_shared<FindCommand>();
+  CLI::App* command = parent.add_subcommand(
+      "find",
+      "List the moments at which a condition holds. They may be in many recordings. The condition "
+      "is an "
+      "expression as in plots; a variable without a robot is that of each robot.\n"
+      "Exits with 0 if there are such moments, with 1 if there are none, and with 2 if a file "
+      "cannot be read, at least in part.\n"
+      "Examples: pitchboard-cli find matches/ 'BELIEF_ERROR > 50 && VISION_BALL_DIST < 100' --for "
+      "0.5\n"
+      "          pitchboard-cli find match.mcap 'B1.VISION_LOST == 1' --for 5 --json\n"
+      "          pitchboard-cli find *.mcap 'match.BALL_X > 4' --csv > near-the-goal.csv");
+  command
+      ->add_option("PLACE", options->places,
+                   "Recordings or folders with recordings (*.mcap), and at the end the condition")
+      ->required();
+  shared::addDuration(*command, "--for", options->least,
+                      "Only moments at which it holds for at least this long");
+  addRobots(*command, options->robots, "Only these robots, e.g. B1,R2");
+  command->add_flag("--json", options->json, "One JSON object per moment");
+  command->add_flag("--csv", options->csv, "A line with commas per moment, and a header")
+      ->excludes("--json");
+  command
+      ->add_option("--jobs", options->jobs,
+                   "How many threads read; default: one for each core of the computer")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  command->add_flag("--progress", options->progress,
+                    "Print progress to stderr even if it is not a terminal");
+  whenChosen(*command, options, exitCode, findIn);
+}
+
+}  // namespace pitchboard::cli

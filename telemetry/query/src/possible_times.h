@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Where a condition may hold, by the summaries of minimum and maximum that long sessions contain.
+// Private to the library; one thread.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <telemetry/query/session_query.h>
+
+namespace pitchboard::telemetry {
+
+/// Returns closed ranges in order of time that contain every sample at which a curve of the query
+/// can be true, and the sample after each; nothing if the session's summaries rule nothing out.
+/// `condition` is the text of each curve.
+std::optional<std::vector<TimeRange>> possibleTimes(const SessionReader& session,
+                                                    const SessionQuery& query,
+                                                    const std::string& condition,
+                                                    const std::function<bool()>& goOn);
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <telemetry/query/session_query.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include <base/nearest_name.h>
+#include <base/try.h>
+#include <telemetry/expression/expression_unit.h>
+#include <telemetry/series/group_order.h>
+#include <telemetry/series/losable.h>
+
+namespace pitchboard::telemetry {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::uint64_t rowsBetweenQuestions = 4096;
+constexpr std::string_view firstRobot = "first";  // of plots
+
+/// `B1/BELIEF_ERROR` as it is written in an expression.
+std::string written(std::string_view name) {
+  std::string out(name);
+  if (const std::size_t slash = out.find('/'); slash != std::string::npos) out[slash] = '.';
+  if (out.starts_with("each.")) out.erase(0, 5);
+  return out;
+}
+
+std::pair<std::string_view, std::string_view> partsOf(std::string_view name) {
+  const std::size_t slash = name.find('/');
+  return {name.substr(0, slash), name.substr(slash + 1)};
+}
+
+std::optional<std::uint32_t> columnOf(const GroupInfo& group, std::string_view name) {
+  const auto found = std::ranges::find(group.columns, name, &ColumnInfo::name);
+  if (found == group.columns.end()) return {};
+  return static_cast<std::uint32_t>(found - group.columns.begin());
+}
+
+/// The newest row of a group, as far as it is needed.
+struct Input {
+  struct Column {
+    Slot slot;
+    std::optional<Losable> losable;
+    double value = unknown;
+  };
+  std::vector<Column> columns;
+  std::map<std::uint32_t, std::size_t> places;  ///< of the group's columns among `columns`
+  double time = -std::numeric_limits<double>::infinity();
+  bool isDue = false;  ///< it has a row at the present time, whose curves are not evaluated yet
+  std::vector<std::size_t> curves;  ///< that have their samples at its rows
+
+  void take(const RowView& row) {
+    time = row.time;
+    for (Column& column : columns) {
+      if (column.losable && column.losable->isLost(row)) {
+        column.value = unknown;
+      } else if (column.slot.type == ColumnType::Float64) {
+        column.value = row.values[column.slot.index];
+      } else {
+        const std::uint32_t word = row.words[column.slot.index];
+        column.value = column.slot.type == ColumnType::Int32
+                           ? static_cast<double>(std::bit_cast<std::int32_t>(word))
+                           : static_cast<double>(std::bit_cast<float>(word));
+      }
+    }
+  }
+};
+
+/// An expression, and where its variables are.
+struct Resolved {
+  Expression expression;
+  std::vector<QueryVariable> variables;
+  std::vector<double> values{};
+};
+
+}  // namespace
+
+struct SessionQuery::Impl {
+  std::vector<QueryCurve> curves;
+  struct Part {
+    Resolved value;
+    std::optional<Resolved> condition;
+  };
+  std::vector<Part> parts;  ///< of each curve
+  std::map<GroupId, Input> inputs;
+  bool readsOtherGroups = false;  ///< a curve has values of other groups than that of its times
+
+  double evaluate(Resolved& what, double time, GroupId own) const {
+    for (std::size_t i = 0; i < what.variables.size(); ++i) {
+      const QueryVariable& variable = what.variables[i];
+      const Input& input = inputs.at(variable.group);
+      const bool isOld = variable.group != own && time - input.time > SummaryPart::maxSilence;
+      what.values[i] = isOld ? unknown : input.columns[input.places.at(variable.column)].value;
+    }
+    return what.expression.evaluate(time, what.values);
+  }
+};
+
+SessionQuery::SessionQuery(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+SessionQuery::SessionQuery(SessionQuery&&) noexcept = default;
+SessionQuery& SessionQuery::operator=(SessionQuery&&) noexcept = default;
+SessionQuery::~SessionQuery() = default;
+
+std::span<const QueryCurve> SessionQuery::curves() const {
+  return m_impl->curves;
+}
+
+std::vector<std::pair<std::string, QueryVariable>> SessionQuery::variables(
+    std::size_t curve) const {
+  std::vector<std::pair<std::string, QueryVariable>> out;
+  const auto add = [&out](const Resolved& what) {
+    for (std::size_t i = 0; i < what.variables.size(); ++i) {
+      out.emplace_back(what.expression.variables()[i], what.variables[i]);
+    }
+  };
+  add(m_impl->parts[curve].value);
+  if (m_impl->parts[curve].condition) add(*m_impl->parts[curve].condition);
+  return out;
+}
+
+namespace {
+
+/// Returns the columns of these expressions that are of `each`.
+std::set<std::string> columnsOfEach(std::span<const std::string> texts, Error& problem) {
+  std::set<std::string> out;
+  for (const std::string& text : texts) {
+    if (text.empty()) continue;
+    const auto parsed = Expression::parse(text, eachRobot);
+    if (!parsed) {
+      problem = parsed.error();
+      problem.message = "\"" + text + "\": " + problem.message;
+      return {};
+    }
+    for (const std::string& name : parsed->variables()) {
+      const auto [group, column] = partsOf(name);
+      if (group == eachRobot) out.emplace(column);
+      if (group == firstRobot) {
+        problem = {ErrorCode::InvalidArgument,
+                   "\"first\" is only for plots: write the robot's name, or each for every robot",
+                   {}};
+      }
+    }
+  }
+  return out;
+}
+
+Error noVariable(const SessionReader& session, std::string_view name) {
+  std::vector<std::string> names;
+  const bool isOfEach = name.starts_with("each/");
+  for (const SessionGroup& group : session.groups()) {
+    for (const ColumnInfo& column : group.info.columns) {
+      names.push_back(isOfEach ? column.name : group.info.name + '.' + column.name);
+    }
+  }
+  const std::string wanted = written(name);
+  const std::string_view near =
+      nearestName(wanted, std::vector<std::string_view>(names.begin(), names.end()));
+  return {ErrorCode::NotFound,
+          (isOfEach ? "No robot has the variable " : "There is no variable ") + wanted +
+              (near.empty() ? "." : "; did you mean " + std::string(near) + "?"),
+          {}};
+}
+
+/// Returns the variable that a name of an expression means. `each`: the robot that it stands for.
+Result<QueryVariable> variableOf(const SessionReader& session, const std::string& name,
+                                 std::optional<GroupId> each) {
+  const auto [group, column] = partsOf(name);
+  std::vector<GroupId> groups;
+  if (group == eachRobot) {
+    groups = {*each};
+  } else {
+    groups = TRY(session.groupsNamed(group));
+  }
+  for (const GroupId id : groups) {
+    if (const auto found = columnOf(session.groups()[id].info, column)) {
+      return QueryVariable{id, *found};
+    }
+  }
+  return tl::unexpected(noVariable(session, name));
+}
+
+Result<Resolved> resolved(const SessionReader& session, const std::string& text,
+                          std::optional<GroupId> each) {
+  Resolved out{TRY(Expression::parse(text, eachRobot)), {}};
+  for (const std::string& name : out.expression.variables()) {
+    out.variables.push_back(TRY(variableOf(session, name, each)));
+  }
+  out.values.assign(out.variables.size(), unknown);
+  return out;
+}
+
+/// Whether the expression is nothing but a variable.
+bool isVariable(const std::string& text, const Expression& expression) {
+  if (expression.variables().size() != 1) return false;
+  return text.find_first_of("+-*/^()<>=!&|?: ") == std::string::npos || text.front() == '{';
+}
+
+void describe(const SessionReader& session, const std::string& text, const Resolved& value,
+              QueryCurve& curve) {
+  const auto infoOf = [&](std::size_t i) -> const ColumnInfo& {
+    const QueryVariable& variable = value.variables[i];
+    return session.groups()[variable.group].info.columns[variable.column];
+  };
+  if (isVariable(text, value.expression)) {
+    const ColumnInfo& column = infoOf(0);
+    curve.unit = column.unit;
+    curve.kind = column.kind;
+    curve.labels = column.labels;
+    return;
+  }
+  const auto unitOf = [&](const std::string& name) -> std::optional<std::string> {
+    const auto& names = value.expression.variables();
+    // A name without a group is of `each`.
+    const bool isPlain = name.find('/') == std::string::npos;
+    const auto found =
+        std::ranges::find(names, isPlain ? std::string(eachRobot) + '/' + name : name);
+    if (found == names.end()) return {};
+    const ColumnInfo& column = infoOf(static_cast<std::size_t>(found - names.begin()));
+    if (column.kind != ColumnKind::Number) return "1";
+    return column.unit.empty() ? std::nullopt : std::optional(column.unit);
+  };
+  const std::string unit = unitOfExpression(text, unitOf).value_or("");
+  curve.unit = unit == "1" ? "" : unit;
+}
+
+}  // namespace
+
+Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryTexts& texts) {
+  auto impl = std::make_unique<Impl>();
+  std::vector<bool> isChosen(session.groups().size(), texts.robots.empty());
+  for (const std::string& robot : texts.robots) {
+    const std::vector<GroupId> groups = TRY(session.groupsNamed(robot));
+    for (const GroupId group : groups) isChosen[group] = true;
+  }
+  for (std::size_t v = 0; v < texts.values.size(); ++v) {
+    const std::array<std::string, 2> both{texts.values[v], texts.condition};
+    Error problem{ErrorCode::ParseError, {}, {}};
+    const std::set<std::string> columns = columnsOfEach(both, problem);
+    if (!problem.message.empty()) return tl::unexpected(problem);
+    std::vector<std::optional<GroupId>> robots;
+    if (columns.empty()) robots.emplace_back();
+    for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+      if (columns.empty() || !isChosen[g]) continue;
+      const GroupInfo& info = session.groups()[g].info;
+      if (std::ranges::all_of(columns, [&](const std::string& column) {
+            return columnOf(info, column).has_value();
+          })) {
+        robots.emplace_back(static_cast<GroupId>(g));
+      }
+    }
+    if (robots.empty()) {
+      for (const std::string& column : columns) {
+        const bool isThere = std::ranges::any_of(session.groups(), [&](const SessionGroup& group) {
+          return isChosen[static_cast<std::size_t>(&group - session.groups().data())] &&
+                 columnOf(group.info, column).has_value();
+        });
+        if (!isThere) return tl::unexpected(noVariable(session, std::string("each/") + column));
+      }
+      return failure(ErrorCode::NotFound,
+                     "No robot has all variables of \"" + texts.values[v] +
+                         (texts.condition.empty() ? "\"." : "\" and of the condition."));
+    }
+    for (const std::optional<GroupId>& robot : robots) {
+      Impl::Part part{TRY(resolved(session, texts.values[v], robot)), {}};
+      if (!texts.condition.empty()) part.condition = TRY(resolved(session, texts.condition, robot));
+      QueryCurve curve;
+      curve.value = v;
+      curve.isOfEach = robot.has_value();
+      curve.robot = session.groups()[robot.value_or(part.value.variables.front().group)].info.name;
+      describe(session, texts.values[v], part.value, curve);
+      impl->curves.push_back(std::move(curve));
+      impl->parts.push_back(std::move(part));
+    }
+  }
+  for (std::size_t c = 0; c < impl->parts.size(); ++c) {
+    const Impl::Part& part = impl->parts[c];
+    const GroupId own = part.value.variables.front().group;
+    const auto need = [&](const Resolved& what) {
+      for (const QueryVariable& variable : what.variables) {
+        impl->readsOtherGroups = impl->readsOtherGroups || variable.group != own;
+        Input& input = impl->inputs[variable.group];
+        if (!input.places.emplace(variable.column, input.columns.size()).second) continue;
+        const GroupInfo& info = session.groups()[variable.group].info;
+        Input::Column column{slotsOf(info.columns)[variable.column], {}};
+        for (Losable& losable : losableColumns(info)) {
+          if (losable.column == variable.column) column.losable = std::move(losable);
+        }
+        input.columns.push_back(std::move(column));
+      }
+    };
+    need(part.value);
+    if (part.condition) need(*part.condition);
+    impl->inputs[own].curves.push_back(c);
+  }
+  return SessionQuery(std::move(impl));
+}
+
+bool SessionQuery::run(const SessionReader& session, TimeRange range,
+                       const std::function<bool(const QuerySample&)>& visit,
+                       const std::function<bool()>& goOn) {
+  Impl& impl = *m_impl;
+  std::vector<GroupId> groups;
+  for (auto& [id, input] : impl.inputs) {
+    groups.push_back(id);
+    input.time = -std::numeric_limits<double>::infinity();
+    input.isDue = false;
+    for (Input::Column& column : input.columns) column.value = unknown;
+  }
+  if (groups.empty()) return true;
+  bool goesOn = true;
+  double now = -std::numeric_limits<double>::infinity();
+  // The curves of a row: evaluated when all rows of its time are known, whatever their order.
+  const auto evaluate = [&](GroupId id, Input& input) {
+    input.isDue = false;
+    for (const std::size_t c : input.curves) {
+      if (!goesOn || input.time < range.begin) return;
+      Impl::Part& part = impl.parts[c];
+      QuerySample sample{c, input.time, unknown, true};
+      if (part.condition) {
+        const double holds = impl.evaluate(*part.condition, input.time, id);
+        sample.isConditioned = std::isfinite(holds) && holds != 0.0;
+      }
+      if (sample.isConditioned) sample.value = impl.evaluate(part.value, input.time, id);
+      goesOn = visit(sample);
+    }
+  };
+  const auto evaluateAll = [&] {
+    for (auto& [id, input] : impl.inputs) {
+      if (input.isDue) evaluate(id, input);
+    }
+  };
+  const double lead = impl.readsOtherGroups ? SummaryPart::maxSilence : 0.0;
+  std::uint64_t rows = 0;
+  session.rows({range.begin - lead, range.end}, groups, [&](GroupId id, const RowView& row) {
+    if (goOn && ++rows % rowsBetweenQuestions == 0 && !goOn()) goesOn = false;
+    if (row.time > now) evaluateAll();
+    now = std::max(now, row.time);
+    Input& input = impl.inputs.at(id);
+    if (input.isDue) evaluate(id, input);  // a second row of the same time
+    input.take(row);
+    input.isDue = !input.curves.empty();
+    return goesOn;
+  });
+  if (goesOn) evaluateAll();
+  return goesOn;
+}
+
+}  // namespace pitchboard::telemetry

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// pitchboard-agent records the blackboard of a robot that plays in a match, beside the match. The
+// recording has what the match's own has, and the robot's program runs again through it.
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <robotlink/blackboard/match_number.h>
+
+#include "../support/program_run.h"
+
+namespace tst_flight_recorder {
+
+class TestFlightRecorder : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+  // One that nobody plays: its keys are ours.
+  const pitchboard::link::MatchNumber m_number =
+      pitchboard::link::MatchClaim::takeFree().value().number();
+
+  QString path(const char* name) const { return m_folder.filePath(name); }
+  void write(const char* name, const QByteArray& text) const {
+    QFile file(path(name));
+    if (!file.open(QIODevice::WriteOnly)) qFatal("cannot write %s", name);
+    file.write(text);
+  }
+  /// The values of DECISION_ACTION_A one after the other, each change once.
+  QList<QByteArray> actions(const char* session) const {
+    const QString csv = path("rows.csv");
+    const ProgramRun run = cli({"export", path(session), "--to", "csv-wide", "--robots", "B1",
+                                "--variables", "DECISION_ACTION_A", "-o", csv, "--force"});
+    if (run.exitCode != 0) qWarning("%s", run.err.constData());
+    QList<QByteArray> values;
+    for (const QByteArray& line : contents(csv).split('\n').mid(1)) {
+      const QList<QByteArray> cells = line.trimmed().split(',');
+      if (cells.size() != 2 || (!values.empty() && values.back() == cells[1])) continue;
+      values.push_back(cells[1]);
+    }
+    return values;
+  }
+  QJsonObject rerun(const char* program) const {
+    const ProgramRun run = cli({"rerun", path("flight.mcap"), "--robot", "B1", "--process",
+                                "decision=" + path(program), "--slack", "0.5", "--json"});
+    if (run.exitCode != 0) qWarning("%s", run.err.constData());
+    return QJsonDocument::fromJson(run.out).object();
+  }
+  static QJsonObject action(const QJsonObject& result) {
+    for (const QJsonValue& one : result["variables"].toArray()) {
+      if (one["name"] == "DECISION_ACTION_A") return one.toObject();
+    }
+    return {};
+  }
+  static double secondsOf(const QJsonObject& variable) {
+    double seconds = 0.0;
+    for (const QJsonValue& one : variable["stretches"].toArray()) {
+      seconds += one["end"].toDouble() - one["begin"].toDouble();
+    }
+    return seconds;
+  }
+
+ private slots:
+  void initTestCase() {
+    const QByteArray program =
+        contents(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/ball_robot.py"));
+    write("ball_robot.py", program);
+    QByteArray changed = program;
+    changed.replace("return 8 ", "return 18");
+    QVERIFY(changed != program);
+    write("changed.py", changed);
+    write("team.json", R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [
+      {"name": "decision", "command": ["python3", ")" +
+                           path("ball_robot.py").toUtf8() + R"(", "${key}"]}]})");
+    QProcess agent;
+    agent.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+                {"--robot", "1", "--key", QString::number(m_number.keyBase() + 100), "--to", "none",
+                 "--record", path("flight.mcap"), "--record-rate", "500"});
+    QByteArray reported;
+    QTRY_VERIFY((reported += agent.readAllStandardError(), reported.contains("waiting for")));
+    const ProgramRun match =
+        cli({"record", "--scenario", "one-robot", "--noise", "realistic", "--seed", "7",
+             "--runtime", "B1=" + path("team.json"), "--match", QString::number(m_number.value),
+             "--speed", "1", "--duration", "20", "-o", path("match.mcap")});
+    agent.terminate();
+    QVERIFY2(match.exitCode == 0, match.err.constData());
+    QVERIFY(agent.waitForFinished() && agent.exitCode() == 0);
+    QVERIFY((reported += agent.readAllStandardError()).contains("reading blackboard"));
+  }
+
+  void itHasEveryActionOfTheMatch() {
+    QList<QByteArray> match = actions("match.mcap"), flight = actions("flight.mcap");
+    QVERIFY2(match.size() >= 30, match.join(' ').constData());
+    // Before the match the board is empty, and for a moment behind its last row it is still there.
+    for (auto* list : {&match, &flight}) {
+      while (!list->empty() && list->front() == "0") list->removeFirst();
+    }
+    QVERIFY(flight.size() >= match.size() && flight.size() <= match.size() + 1);
+    QCOMPARE(flight.first(match.size()), match);
+  }
+
+  // Its cycles fall between those of the match, so single decisions come out differently.
+  void theProgramRunsAgain() {
+    const QJsonObject same = action(rerun("ball_robot.py"));
+    const QJsonObject changed = action(rerun("changed.py"));
+    QVERIFY2(same["compared"].toInt() > 1000, QJsonDocument(same).toJson().constData());
+    QVERIFY2(secondsOf(same) < 2.0, QJsonDocument(same).toJson().constData());
+    QVERIFY2(secondsOf(changed) > 8.0, QJsonDocument(changed).toJson().constData());
+    int backward = 0;
+    for (const QJsonValue& one : changed["stretches"].toArray()) {
+      backward += one["recorded"] == 8.0 && one["rerun"] == 18.0 ? 1 : 0;
+    }
+    QVERIFY2(backward > 0, QJsonDocument(changed).toJson().constData());
+  }
+};
+
+}  // namespace tst_flight_recorder
+
+QTEST_GUILESS_MAIN(tst_flight_recorder::TestFlightRecorder)
+#include "tst_flight_recorder.moc"

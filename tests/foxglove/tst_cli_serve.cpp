@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `pitchboard-cli serve` and the official client of Foxglove's protocol: each row of a session
+// arrives with its time, value for value; playback is controlled in the newer subprotocol; who
+// speaks none is told so.
+
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QProcess>
+#include <QTcpSocket>
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <csignal>
+#include <functional>
+
+#include <telemetry/series/losable.h>
+#include <telemetry/session/session_reader.h>
+
+#include "../support/program_run.h"
+
+namespace tst_cli_serve {
+
+using namespace pitchboard;
+using telemetry::SessionReader;
+
+namespace {
+
+const QString cli = QStringLiteral(PITCHBOARD_BIN "/pitchboard-cli");
+
+/// `pitchboard-cli serve` with these arguments.
+class Server {
+ public:
+  explicit Server(const QStringList& arguments) {
+    m_process.setReadChannel(QProcess::StandardError);
+    m_process.start(cli, QStringList{"serve", "--port", "0"} + arguments);
+    while (!m_url.contains("ws://") &&
+           (m_process.canReadLine() || m_process.waitForReadyRead(60'000))) {
+      m_url = m_process.readLine();
+    }
+    m_url = m_url.mid(m_url.indexOf("ws://"));
+    m_url.truncate(m_url.indexOf(' '));
+  }
+  ~Server() { end(); }
+  QString url() const { return QString::fromUtf8(m_url); }
+  quint16 port() const {
+    return static_cast<quint16>(m_url.mid(m_url.lastIndexOf(':') + 1).toInt());
+  }
+  /// Ctrl+C; returns the exit code.
+  int end() {
+    if (m_process.state() == QProcess::NotRunning) return m_process.exitCode();
+    ::kill(static_cast<pid_t>(m_process.processId()), SIGINT);
+    return m_process.waitForFinished(60'000) ? m_process.exitCode() : -1;
+  }
+
+ private:
+  QProcess m_process;
+  QByteArray m_url;
+};
+
+/// What the client printed until `isEnough` says so.
+QList<QJsonObject> received(const QString& url, const QString& steps,
+                            const std::function<bool(const QList<QJsonObject>&)>& isEnough) {
+  // The packages are found beside the script, so it runs as a copy in their folder.
+  const QString script = QStringLiteral(FOXGLOVE_SERVER "/read_server.mjs");
+  QFile::remove(script);
+  QFile::copy(QStringLiteral(PITCHBOARD_SOURCE_DIR "/tests/foxglove/read_server.mjs"), script);
+  QProcess node;
+  node.start("node", {script, url, "120", steps});
+  QList<QJsonObject> lines;
+  while (!isEnough(lines) && (node.canReadLine() || node.waitForReadyRead(60'000))) {
+    while (node.canReadLine()) lines << QJsonDocument::fromJson(node.readLine()).object();
+  }
+  node.kill();
+  node.waitForFinished();
+  return lines;
+}
+
+bool hasNumber(const QJsonValue& value, double number) {
+  return std::isfinite(number) ? value.isDouble() && value.toDouble() == number : value.isNull();
+}
+
+}  // namespace
+
+class TestCliServe : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void initTestCase() {
+    QVERIFY(m_folder.isValid());
+    m_session = m_folder.filePath("match.mcap");
+    QCOMPARE(QProcess::execute(
+                 cli, {"record", "--scenario", "match-3v3", "--duration", "4", "-o", m_session}),
+             0);
+  }
+
+  /// Played from its first moment to its end.
+  void rowsArriveValueForValue() {
+    const auto session = SessionReader::open(m_session.toStdString());
+    QVERIFY(session.has_value());
+    const auto robot = session->groupsNamed("B1");
+    QVERIFY(robot.has_value() && robot->size() == 1);
+    const telemetry::GroupInfo& info = session->groups()[robot->front()].info;
+    Server server({m_session, "--speed", "0.5"});
+    const auto lines = received(server.url(), "official", [](const QList<QJsonObject>& seen) {
+      return std::ranges::count_if(seen, [](const QJsonObject& one) {
+               return one["topic"] == "/robots/B1/row";
+             }) >= 60;
+    });
+    QHash<QString, QJsonObject> rows;  // by time
+    QSet<QString> topics;
+    for (const QJsonObject& line : lines) {
+      QVERIFY2(!line.contains("error"), qPrintable(line["error"].toString()));
+      topics << line["topic"].toString();
+      if (line["topic"] == "/robots/B1/row")
+        rows[line["time"].toString()] = line["message"].toObject();
+    }
+    QVERIFY(topics.contains("/match/row") && topics.contains("/field"));
+    const auto slots_ = telemetry::slotsOf(info.columns);
+    const auto losable = telemetry::losableColumns(info);
+    int compared = 0;
+    session->rows(
+        *session->range(), *robot, [&](telemetry::GroupId, const telemetry::RowView& row) {
+          const QString time = QString::number(session->logTime(row.time));
+          if (!rows.contains(time)) return true;
+          const QJsonObject& message = rows[time];
+          ++compared;
+          [&] {
+            QCOMPARE(message["time"].toDouble(), row.time);
+            QCOMPARE(message.size(), static_cast<qsizetype>(info.columns.size()) + 1);
+            for (std::size_t c = 0; c < slots_.size(); ++c) {
+              const auto rule = std::ranges::find(losable, c, &telemetry::Losable::column);
+              const bool isLost = rule != losable.end() && rule->isLost(row);
+              const auto [type, index] = slots_[c];
+              const double number =
+                  isLost                                   ? std::nan("")
+                  : type == telemetry::ColumnType::Float64 ? row.values[index]
+                  : type == telemetry::ColumnType::Int32
+                      ? std::bit_cast<std::int32_t>(row.words[index])
+                      : static_cast<double>(std::bit_cast<float>(row.words[index]));
+              const std::string& name = info.columns[c].name;
+              QVERIFY2(hasNumber(message[QString::fromStdString(name)], number), name.c_str());
+            }
+          }();
+          return !QTest::currentTestFailed();
+        });
+    QVERIFY2(compared >= 60, qPrintable(QString::number(compared)));
+    QCOMPARE(server.end(), 0);
+  }
+
+  void playbackIsControlled() {
+    Server server({m_session, "--paused"});
+    const QString steps = "seek:2.5,play:2,pause,seek:3.5,play:1";
+    const auto states = [](const QList<QJsonObject>& seen) {
+      QList<QJsonObject> found;
+      for (const QJsonObject& one : seen) {
+        if (one.contains("playback")) found << one["playback"].toObject();
+      }
+      return found;
+    };
+    const auto lines = received(server.url(), steps, [&](const QList<QJsonObject>& seen) {
+      const auto all = states(seen);
+      return !all.isEmpty() && all.last()["status"].toInt() == 3;
+    });
+    QVERIFY(!lines.isEmpty());
+    QCOMPARE(lines.first()["subprotocol"].toString(), QString("foxglove.sdk.v1"));
+    const auto all = states(lines);
+    QStringList text;
+    for (const QJsonObject& state : all) {
+      text << QString("%1 %2 %3")
+                  .arg(state["status"].toInt())
+                  .arg(state["didSeek"].toInt())
+                  .arg(state["request"].toString());
+    }
+    const QStringList expected{"1 0 ",
+                               "1 1 request seek:2.5",
+                               "0 0 request play:2",
+                               "1 0 request pause",
+                               "1 1 request seek:3.5",
+                               "0 0 request play:1",
+                               "3 0 "};
+    QCOMPARE(text, expected);
+    QCOMPARE(all[1]["time"].toDouble(), 2.5);
+    QCOMPARE(all[2]["speed"].toDouble(), 2.0);
+    QVERIFY(all[3]["time"].toDouble() >= 2.5);
+    QCOMPARE(all[4]["time"].toDouble(), 3.5);
+  }
+
+  void aMatchIsServed() {
+    Server server({"--scenario", "match-3v3", "--duration", "20", "--rate", "10"});
+    const auto lines = received(server.url(), "official", [](const QList<QJsonObject>& seen) {
+      return std::ranges::count_if(
+                 seen, [](const QJsonObject& one) { return one["topic"] == "/field"; }) >= 5;
+    });
+    const auto field = std::find_if(lines.rbegin(), lines.rend(), [](const QJsonObject& one) {
+      return one["topic"] == "/field";
+    });
+    QVERIFY(field != lines.rend());
+    const QJsonArray entities = (*field)["message"]["entities"].toArray();
+    QCOMPARE(entities.size(), 3);
+    QCOMPARE(entities[0]["lines"].toArray().size(), 7);
+    QCOMPARE(entities[1]["cylinders"].toArray().size(), 6);
+    QCOMPARE(entities[1]["texts"][0]["text"].toString(), QString("B1"));
+    QCOMPARE(entities[2]["spheres"].toArray().size(), 1);
+    QCOMPARE(server.end(), 0);
+  }
+
+  void whoSpeaksNoProtocolIsToldSo() {
+    Server server({m_session, "--paused"});
+    const auto answer = [&server](const QByteArray& head) {
+      QTcpSocket socket;
+      socket.connectToHost("127.0.0.1", server.port());
+      socket.write("GET / HTTP/1.1\r\nHost: localhost\r\n" + head + "\r\n");
+      QByteArray text;
+      while (socket.waitForReadyRead(60'000)) text += socket.readAll();
+      return QString::fromUtf8(text);
+    };
+    QVERIFY(answer({}).startsWith("HTTP/1.1 426"));
+    const QByteArray upgrade =
+        "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+        "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n";
+    const QString refused = answer(upgrade + "Sec-WebSocket-Protocol: chat\r\n");
+    QVERIFY2(refused.startsWith("HTTP/1.1 400") && refused.contains("foxglove.sdk.v1"),
+             qPrintable(refused));
+  }
+
+  void mistakesAreExplained() {
+    const auto error = [](const QStringList& arguments) {
+      const ProgramRun run = runProgram("pitchboard-cli", QStringList{"serve"} + arguments);
+      return QString("%1: %2").arg(run.exitCode).arg(QString::fromUtf8(run.err));
+    };
+    Server server({m_session, "--paused"});
+    const QString taken = error({m_session, "--port", QString::number(server.port())});
+    QVERIFY2(taken.startsWith("2: ") && taken.contains("choose another port"), qPrintable(taken));
+    const QString missing = error({m_folder.filePath("none.mcap")});
+    QVERIFY2(missing.startsWith("2: error: ") && missing.contains("none.mcap"),
+             qPrintable(missing));
+    const QString both = error({m_session, "--scenario", "match"});
+    QVERIFY2(both.startsWith("2: "), qPrintable(both));
+    const QString address = error({m_session, "--address", "here"});
+    QVERIFY2(address.startsWith("2: ") && address.contains("here"), qPrintable(address));
+  }
+
+ private:
+  QTemporaryDir m_folder;
+  QString m_session;
+};
+
+PITCHBOARD_TEST(TestCliServe)
+
+}  // namespace tst_cli_serve
+
+#include "tst_cli_serve.moc"

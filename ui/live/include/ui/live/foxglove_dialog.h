@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// The dialog that adds and removes programs whose topics Live shows, such as the Foxglove bridge of
+// a robot with ROS 2, and says how each connection is. UI thread only.
+
+#include <QDialog>
+
+class QComboBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QSettings;
+class QSpinBox;
+class QTableWidget;
+
+namespace pitchboard::link {
+struct FoxgloveSource;
+}
+
+namespace pitchboard::ui {
+
+class LiveController;
+
+class FoxgloveDialog : public QDialog {
+  Q_OBJECT
+ public:
+  /// `live` and `settings` must outlive the dialog.
+  FoxgloveDialog(LiveController* live, QSettings* settings, QWidget* parent);
+
+  /// Adds the source of the form, or changes the one with its address. On failure, shows the reason
+  /// and returns false.
+  bool add();
+
+ private:
+  QWidget* makeForm();
+  void refresh();
+  void choose();
+  void remove();
+  bool use(const std::vector<link::FoxgloveSource>& sources);
+  bool showProblem(const QString& sentence);
+
+  LiveController* m_live;
+  QSettings* m_settings;
+  QTableWidget* m_sources;
+  QLineEdit* m_address;
+  QSpinBox* m_robot;
+  QComboBox* m_team;
+  QPushButton* m_remove;
+  QLabel* m_problem;
+};
+
+/// Opens the dialog, or raises it if it is already open.
+void showFoxgloveDialog(LiveController* live, QSettings* settings, QWidget* window);
+
+}  // namespace pitchboard::ui
