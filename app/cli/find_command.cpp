@@ -164,7 +164,7 @@ void addFindCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<FindCommand>();
   CLI::App* command = parent.add_subcommand(
       "find",
-      "List the moments at which a condition holds. They may be in many recordings. The condition "
+      "List the moments at which a condition holds. It reads one or many recordings. The condition "
       "is an "
       "expression as in plots; a variable without a robot is that of each robot.\n"
       "Exits with 0 if there are such moments, with 1 if there are none, and with 2 if a file "

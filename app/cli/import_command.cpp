@@ -67,7 +67,7 @@ void addImportCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<ImportCommand>();
   CLI::App* command = parent.add_subcommand(
       "import",
-      "Make a session of what other programs recorded. They are MCAP (ROS 2, ROS 1, JSON, "
+      "Make a session of what other programs recorded. It reads MCAP (ROS 2, ROS 1, JSON, "
       "protobuf), rosbag2 (sqlite3), CSV, and the GameController's log. A folder or several files "
       "are one recording.\n"
       "What cannot be read is printed to stderr with its count.\n"

@@ -30,7 +30,6 @@
 namespace pitchboard::cli {
 namespace {
 
-using namespace std::chrono_literals;
 using telemetry::FoxglovePlaybackControl;
 using telemetry::FoxglovePlaybackState;
 using telemetry::FoxgloveServer;
