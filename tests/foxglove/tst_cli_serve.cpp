@@ -18,6 +18,9 @@
 #include <csignal>
 #include <functional>
 
+#include <robotlink/serve/served_match.h>
+#include <telemetry/foxglove/foxglove_client.h>
+#include <telemetry/foxglove/foxglove_server.h>
 #include <telemetry/series/losable.h>
 #include <telemetry/session/session_reader.h>
 
@@ -150,6 +153,69 @@ class TestCliServe : public QObject {
         });
     QVERIFY2(compared >= 60, qPrintable(QString::number(compared)));
     QCOMPARE(server.end(), 0);
+  }
+
+  /// A robot that gets another name has another channel; nobody who asked for the old one gets its
+  /// rows.
+  void renamedRobotsHaveNewChannels() {
+    using namespace telemetry;
+    FoxgloveServerOptions options;
+    options.port = 0;
+    options.sessionId = "1";
+    const auto server = FoxgloveServer::start(options).value();
+    link::ServedMatch served(
+        *server, [](double seconds) { return static_cast<std::uint64_t>(seconds * 1e9); });
+    ColumnInfo column;
+    column.name = "X";
+    GroupInfo group;
+    group.name = "B1";
+    group.columns = {column};
+    group.id = "1 messages";
+    const GroupId id = served.addGroup(group);
+    FoxgloveClient client(
+        {.host = "127.0.0.1", .port = server->port()}, [] { return WallTime(); }, [] {});
+    std::uint64_t session = 0;
+    QStringList seen;
+    const auto hasSeen = [&](const QString& what) {
+      for (const FoxgloveEvent& event : client.take()) {
+        if (const auto* begun = std::get_if<FoxgloveBegun>(&event)) session = begun->session;
+        if (const auto* added = std::get_if<FoxgloveChannelsAdded>(&event)) {
+          std::vector<std::uint32_t> ids;
+          for (const FoxgloveChannel& one : added->channels) {
+            seen << QString("+%1 %2").arg(one.id).arg(QString::fromStdString(one.topic));
+            ids.push_back(one.id);
+          }
+          if (ids.front() < 5) client.subscribe(session, ids);  // not to those that come later
+        }
+        if (const auto* gone = std::get_if<FoxgloveChannelsRemoved>(&event)) {
+          for (const std::uint32_t one : gone->channels) seen << QString("-%1").arg(one);
+        }
+        if (const auto* row = std::get_if<FoxgloveReceived>(&event)) {
+          seen << QString("row of %1").arg(row->channel);
+        }
+      }
+      return seen.contains(what);
+    };
+    const double x = 1.0;
+    const auto rowIsSeen = [&] {
+      served.append(id, {.time = 1.0, .words = {}, .values = {&x, 1}});
+      return hasSeen("row of 4");
+    };
+    QTRY_VERIFY2(rowIsSeen(), qPrintable(seen.join(", ")));
+    QVERIFY(seen.contains("+4 /robots/B1/row"));
+    group.name = "R1";
+    QCOMPARE(served.addGroup(group), id);
+    QTRY_VERIFY2(hasSeen("+5 /robots/R1/row"), qPrintable(seen.join(", ")));
+    QVERIFY2(seen.contains("-4"), qPrintable(seen.join(", ")));
+    // What was sent before the name changed has come; of what follows nothing may.
+    seen.clear();
+    served.append(id, {.time = 2.0, .words = {}, .values = {&x, 1}});
+    GroupInfo other = group;
+    other.name = "B2";
+    other.id = "2 messages";
+    served.addGroup(other);
+    QTRY_VERIFY2(hasSeen("+6 /robots/B2/row"), qPrintable(seen.join(", ")));
+    QCOMPARE(seen, QStringList{"+6 /robots/B2/row"});
   }
 
   void playbackIsControlled() {

@@ -93,6 +93,9 @@ struct FoxgloveServer::Impl {
         send(std::move(frame));
       }
     }
+    void forget(std::uint32_t channel) {
+      std::erase_if(m_subscriptions, [channel](const auto& one) { return one.second == channel; });
+    }
     /// Programs that know only the older subprotocol call the frame an error.
     void sendPlayback(const FoxglovePlaybackState& state) {
       if (m_controls) send(binaryFrame(foxglovePlaybackFrame(state)));
@@ -327,11 +330,17 @@ std::uint16_t FoxgloveServer::port() const {
 
 void FoxgloveServer::advertise(FoxgloveChannel channel) {
   asio::post(m_impl->context, [&impl = *m_impl, channel = std::move(channel)] {
-    const bool isKnown = impl.channels.contains(channel.id);
-    if (isKnown) impl.sendAll(textFrame(foxgloveUnadvertise(std::vector{channel.id})));
-    impl.kept.erase(channel.id);
     impl.channels[channel.id] = channel;
     impl.sendAll(textFrame(foxgloveAdvertise(std::vector{channel})));
+  });
+}
+
+void FoxgloveServer::unadvertise(std::uint32_t channel) {
+  asio::post(m_impl->context, [&impl = *m_impl, channel] {
+    impl.channels.erase(channel);
+    impl.kept.erase(channel);
+    for (const auto& client : impl.clients) client->forget(channel);
+    impl.sendAll(textFrame(foxgloveUnadvertise(std::vector{channel})));
   });
 }
 

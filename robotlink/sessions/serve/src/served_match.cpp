@@ -26,7 +26,7 @@ using telemetry::GroupInfo;
 using telemetry::RowView;
 
 // Channels of groups follow.
-constexpr std::uint32_t fieldChannel = 1, eventChannel = 2, logChannel = 3, firstGroupChannel = 4;
+constexpr std::uint32_t fieldChannel = 1, eventChannel = 2, logChannel = 3;
 
 constexpr const char* eventSchema =
     R"({"title":"pitchboard.Event","type":"object","properties":{"time":{"type":"number"},)"
@@ -91,8 +91,10 @@ GroupId ServedMatch::addGroup(const GroupInfo& info) {
       !isNew && group.info.name == info.name && group.info.columns == info.columns;
   group.info = info;
   if (isOffered) return static_cast<GroupId>(at);
-  group.channel = firstGroupChannel + static_cast<std::uint32_t>(at);
-  group.slots = telemetry::slotsOf(info.columns);
+  // A channel's id is not used again: who subscribed to "B1" must not get the rows of "R1".
+  if (!isNew) m_server.unadvertise(group.channel);
+  group.channel = m_nextChannel++;
+  group.places = telemetry::slotsOf(info.columns);
   group.losable = telemetry::losableColumns(info);
   m_server.advertise(jsonChannel(group.channel, topicOf(info), "pitchboard.Row", schemaOf(info)));
   return static_cast<GroupId>(at);
@@ -103,11 +105,11 @@ void ServedMatch::append(GroupId id, const RowView& row) {
   const Group& group = m_groups[id];
   Json json{{"time", row.time}};
   auto losable = group.losable.begin();
-  for (std::size_t c = 0; c < group.slots.size(); ++c) {
+  for (std::size_t c = 0; c < group.places.size(); ++c) {
     const bool isLosable = losable != group.losable.end() && losable->column == c;
     const bool isLost = isLosable && losable->isLost(row);
     if (isLosable) ++losable;
-    json[group.info.columns[c].name] = isLost ? Json() : valueOf(group.slots[c], row);
+    json[group.info.columns[c].name] = isLost ? Json() : valueOf(group.places[c], row);
   }
   m_server.send(group.channel, m_logTime(row.time), json.dump(), true);
 }

@@ -52,8 +52,10 @@ class FoxgloveServer {
 
   std::uint16_t port() const;
 
-  /// Offers a channel, or another one under the same id.
+  /// Offers a channel. Its id must not have been another channel's before.
   void advertise(FoxgloveChannel channel);
+  /// Takes a channel back; nobody is subscribed to it any more.
+  void unadvertise(std::uint32_t channel);
   /// Sends a message to everybody who subscribed to the channel. With `keep`, whoever subscribes
   /// later gets the last one at once.
   void send(std::uint32_t channel, std::uint64_t logTime, std::string_view payload,

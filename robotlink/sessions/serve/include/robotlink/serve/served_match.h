@@ -43,13 +43,14 @@ class ServedMatch : public telemetry::RowSink {
   struct Group {
     telemetry::GroupInfo info;
     std::uint32_t channel = 0;
-    std::vector<telemetry::Slot> slots;
+    std::vector<telemetry::Slot> places;
     std::vector<telemetry::Losable> losable;
   };
 
   telemetry::FoxgloveServer& m_server;
   std::function<std::uint64_t(double)> m_logTime;
   std::vector<Group> m_groups;
+  std::uint32_t m_nextChannel = 4;  // those below are field, events and log
 };
 
 /// Serves a simulated match while it is played: rows of a MatchSampler with served() as sink,
