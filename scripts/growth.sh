@@ -11,7 +11,7 @@ Usage: scripts/growth.sh [WORD]
 Measures how cost grows with the work (tests/benchmarks/growth.cpp): each kind of work at five sizes in one
 process. A line for each kind, or for those whose name contains WORD: time, memory and bytes of the largest
 size, and after "^" the exponent. Exits with 1 if an exponent is above 1.2. Takes about two minutes, and
-needs a computer that does nothing else. docs/performance.md has a table of exponents.
+other programs change little, because it counts processor time. docs/performance.md has a table of exponents.
 END
     exit 0 ;;
 esac

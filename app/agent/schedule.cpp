@@ -87,7 +87,7 @@ bool Schedule::open(Time now, double room, std::size_t fieldBytes) {
   if (sendsStatus) {
     const auto refresh = std::chrono::duration_cast<std::chrono::milliseconds>(refreshTime(now));
     writer.add("@REFRESH", Pb2Number(std::int64_t{refresh.count()}).text());
-    writer.add("@WAITING", Pb2Number(static_cast<std::int64_t>(m_queue.size())).text());
+    writer.add("@WAITING", Pb2Number(static_cast<std::int64_t>(m_waited)).text());
     writer.add("@BLACKBOARD", Pb2Number(std::int64_t{m_there}).text());
   }
   const double cost = static_cast<double>(headerBytes + writer.bytes()) * m_options.receivers;
@@ -159,6 +159,7 @@ void Schedule::sendRefresh(Time now) {
 const std::vector<std::string>& Schedule::next(Time now, std::span<const std::uint32_t> words) {
   m_datagrams.clear();
   refill(now);
+  m_waited = m_queue.size();
   const bool there = !words.empty();
   if (there && !m_there) {
     m_roundStart = now;

@@ -82,6 +82,7 @@ class Schedule {
   std::vector<State> m_states;
   std::vector<std::uint32_t> m_words;  // the newest sample
   std::deque<std::size_t> m_queue;     // changed variables, those that wait longest first
+  std::size_t m_waited = 0;            // of them, those that the step before left
   std::vector<std::string> m_datagrams;
   std::vector<telemetry::Pb2Writer> m_open;  // at most one
   std::uint32_t m_sequence = 0;

@@ -191,9 +191,7 @@ class Decoder : public link::LiveObserver {
     if (datagram.decoded != nullptr) noteFields(*datagram.decoded);
     m_line.clear();
     if (m_json) {
-      Json json = head();
-      json.update(messageJson(datagram, m_pipeline.options()));
-      m_line = dump(json);
+      addMessageJson(m_line, head(), datagram, m_pipeline.options());
     } else {
       addMessageLine(m_line, datagram, m_pipeline.options());
     }

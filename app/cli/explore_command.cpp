@@ -9,6 +9,7 @@
 #include <base/try.h>
 #include <robotlink/explore/explore.h>
 #include <robotlink/session/match_recorder.h>
+#include <robotlink/session/moment_reader.h>
 #include <robotlink/session/recorded_frame.h>
 
 #include "commands.h"
@@ -51,8 +52,10 @@ Result<Explored> exploreFile(const ExploreCommand& command) {
   const auto time = telemetry::sessionTime(command.at, session.info().start, *range);
   if (!time) return failure(time.error().code, "--at: " + time.error().message);
   made.time = *time;
-  const auto scenario = TRY(scenarioOf(session));
   link::RecordedFrames frames(link::backdropOf(session));
+  const link::MatchFrame frame = frames.frameAt(session, made.time);
+  auto scenario = TRY(scenarioOf(session));
+  if (scenario) link::setGameOf(link::stateOfFrame(session, frame), *scenario);
   link::ExploreStartOptions options;
   options.useTruth = command.truth;
   options.base = scenario ? &*scenario : nullptr;
@@ -60,7 +63,6 @@ Result<Explored> exploreFile(const ExploreCommand& command) {
     if (earlier < range->begin) return nullptr;
     return std::make_shared<const link::MatchFrame>(frames.frameAt(session, earlier));
   };
-  const link::MatchFrame frame = frames.frameAt(session, made.time);
   if (command.truth && !frame.truthKnown) {
     return failure(ErrorCode::InvalidArgument,
                    "--truth needs a recording of a simulated match; leave it out", command.file);

@@ -41,13 +41,15 @@ class Printer : public link::LiveObserver {
       put(datagram.view.time, datagram.view.sender.text(), line);
       return;
     }
-    Json json{{"type", typeOf(datagram)},
-              {"time", unixSeconds(datagram.view.time)},
-              {"sender", datagram.view.sender.text()},
-              {"port", datagram.view.localPort},
-              {"bytes", datagram.view.payload.size()}};
-    json.update(messageJson(datagram, m_options));
-    put(dump(json) + "\n");
+    std::string line;
+    addMessageJson(line,
+                   {{"type", typeOf(datagram)},
+                    {"time", unixSeconds(datagram.view.time)},
+                    {"sender", datagram.view.sender.text()},
+                    {"port", datagram.view.localPort},
+                    {"bytes", datagram.view.payload.size()}},
+                   datagram, m_options);
+    put(line + "\n");
   }
 
   void decoded(const link::LiveTopicMessage& message) override {

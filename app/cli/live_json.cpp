@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "live_json.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include <robotlink/live/live_teams.h>
 #include <simcore/world/action_codes.h>
+
+#include "json_text.h"
 
 namespace pitchboard::cli {
 namespace {
@@ -19,6 +24,11 @@ Json errorList(const TextErrors& errors) {
     if (errors.has(error)) list.push_back(errorName(error));
   }
   return list;
+}
+
+void addWhole(std::string& out, std::int64_t value) {
+  std::array<char, 24> text;
+  out.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr);
 }
 
 std::string stateLine(const RefereeState& state) {
@@ -55,40 +65,79 @@ std::string teamOf(const RobotKey& robot, const link::LiveOptions& options) {
   return team != nullptr ? team->title() : std::string();
 }
 
-/// {"robot": 1, "values": {"X": 258, ...}, "errors": [...]}; "text" is added when there are errors.
-Json telemetryJson(const link::LiveDatagram& datagram, const std::string& team,
-                   const std::string& robot) {
+bool haveOneName(const TextDecoder& decoder, const DecodedText& message, std::size_t a,
+                 std::size_t b) {
+  const auto& fields = decoder.profile().fields;
+  if (a < fields.size() && b < fields.size()) return fields[a].name == fields[b].name;
+  return decoder.name(message, a) == decoder.name(message, b);
+}
+
+/// Of values with one name, the last one is shown where the first one stands.
+std::optional<std::size_t> shownAt(const TextDecoder& decoder, const DecodedText& message,
+                                   std::size_t index) {
+  std::size_t last = index;
+  for (std::size_t i = 0; i < message.count; ++i) {
+    if (i == index || !haveOneName(decoder, message, i, index)) continue;
+    if (i < index) return std::nullopt;
+    last = i;
+  }
+  return last;
+}
+
+void addValue(std::string& out, const TextDecoder& decoder, const DecodedText& message,
+              std::size_t index) {
+  const auto& fields = decoder.profile().fields;
+  const bool isExtra = index >= fields.size();
+  const double value = message.values[index];
+  if (!message.has(index)) {
+    // An extra field may be text; a named one is a number or nothing.
+    const bool isText = isExtra || fields[index].type == FieldType::Text;
+    if (isText && !message.texts[index].empty())
+      addJsonText(out, message.texts[index]);
+    else
+      out += "null";
+  } else if (value == std::floor(value) && std::abs(value) < 9e15 &&
+             (isExtra || fields[index].type != FieldType::Float)) {
+    addWhole(out, static_cast<std::int64_t>(value));
+  } else {
+    addJsonNumber(out, value);
+  }
+}
+
+/// "robot": 1, "values": {"X": 258, ...}, "errors": [...]; "text" is added when there are errors.
+void addTelemetryMembers(std::string& out, const link::LiveDatagram& datagram,
+                         const std::string& team, const std::string& robot) {
   const TextDecoder& decoder = *datagram.decoder;
   const DecodedText& message = *datagram.decoded;
-  Json json;
-  json["robot"] = robot.empty() ? Json(nullptr) : Json(datagram.robot.number);
-  if (!team.empty()) json["team"] = team;
-  if (!robot.empty()) json["name"] = robot;
-  json["accepted"] = message.accepted();
-  Json values = Json::object();
+  const auto addText = [&out](std::string_view key, std::string_view text) {
+    addJsonKey(out, key);
+    addJsonText(out, text);
+  };
+  addJsonKey(out, "robot");
+  if (robot.empty())
+    out += "null";
+  else
+    addWhole(out, datagram.robot.number);
+  if (!team.empty()) addText("team", team);
+  if (!robot.empty()) addText("name", robot);
+  addJsonKey(out, "accepted");
+  out += message.accepted() ? "true" : "false";
+  addJsonKey(out, "values");
+  out += '{';
   const auto& fields = decoder.profile().fields;
   for (std::size_t i = 0; i < message.count; ++i) {
-    const std::string name = decoder.name(message, i);
-    if (!message.has(i)) {
-      // An extra field may be text; a named one is a number or nothing.
-      const bool isText = i >= fields.size() || fields[i].type == FieldType::Text;
-      values[name] =
-          isText && !message.texts[i].empty() ? Json(std::string(message.texts[i])) : Json(nullptr);
-    } else if (message.values[i] == std::floor(message.values[i]) &&
-               std::abs(message.values[i]) < 9e15 &&
-               (i >= fields.size() || fields[i].type != FieldType::Float)) {
-      values[name] = static_cast<std::int64_t>(message.values[i]);
-    } else {
-      values[name] = message.values[i];
-    }
+    const auto shown = shownAt(decoder, message, i);
+    if (!shown) continue;
+    addJsonKey(out, i < fields.size() ? fields[i].name : decoder.name(message, i));
+    addValue(out, decoder, message, *shown);
   }
-  json["values"] = std::move(values);
+  out += '}';
   if (const auto action = decoder.value(message, FieldMeaning::Action)) {
-    json["action"] = actionLabel(static_cast<int>(*action));
+    addText("action", actionLabel(static_cast<int>(*action)));
   }
-  json["errors"] = errorList(message.errors);
-  if (!message.errors.empty()) json["text"] = printable(datagram.view.payload);
-  return json;
+  addJsonKey(out, "errors");
+  out += dump(errorList(message.errors));
+  if (!message.errors.empty()) addText("text", printable(datagram.view.payload));
 }
 
 void addTelemetryLine(std::string& out, const link::LiveDatagram& datagram, const std::string& team,
@@ -164,6 +213,22 @@ std::string variablesLine(const link::LiveDatagram& datagram, const std::string&
   return out;
 }
 
+/// The content of a datagram that is not telemetry.
+Json messageJson(const link::LiveDatagram& datagram, const std::string& robot) {
+  if (datagram.referee) {
+    if (*datagram.referee) return refereeJson(**datagram.referee);
+    return {{"error", datagram.referee->error().message},
+            {"bytes", datagram.view.payload.size()},
+            {"text", printable(datagram.view.payload)}};
+  }
+  if (datagram.variables) return variablesJson(datagram, robot);
+  Json json{{"robot", robot.empty() ? Json(nullptr) : Json(datagram.robot.number)}};
+  if (!robot.empty()) json["name"] = robot;
+  if (datagram.drawingProblem) json["error"] = *datagram.drawingProblem;
+  json["text"] = datagram.view.payload;
+  return json;
+}
+
 std::string refereeLine(const RefereePacket& packet) {
   if (const auto* state = std::get_if<RefereeState>(&packet)) return stateLine(*state);
   if (const auto* reply = std::get_if<RobotReply>(&packet)) return replyLine(*reply);
@@ -190,21 +255,18 @@ std::string nameOf(const RobotKey& robot, const link::Teams& teams) {
   return robot.number > 0 ? link::robotName(robot, teams) : std::string();
 }
 
-Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options) {
-  if (datagram.referee) {
-    if (*datagram.referee) return refereeJson(**datagram.referee);
-    return {{"error", datagram.referee->error().message},
-            {"bytes", datagram.view.payload.size()},
-            {"text", printable(datagram.view.payload)}};
-  }
+void addMessageJson(std::string& out, Json head, const link::LiveDatagram& datagram,
+                    const link::LiveOptions& options) {
   const std::string robot = nameOf(datagram.robot, datagram.teams);
-  if (datagram.variables) return variablesJson(datagram, robot);
-  if (datagram.decoded) return telemetryJson(datagram, teamOf(datagram.robot, options), robot);
-  Json json{{"robot", robot.empty() ? Json(nullptr) : Json(datagram.robot.number)}};
-  if (!robot.empty()) json["name"] = robot;
-  if (datagram.drawingProblem) json["error"] = *datagram.drawingProblem;
-  json["text"] = datagram.view.payload;
-  return json;
+  if (datagram.decoded && !datagram.referee && !datagram.variables) {
+    out += dump(head);
+    out.pop_back();
+    addTelemetryMembers(out, datagram, teamOf(datagram.robot, options), robot);
+    out += '}';
+    return;
+  }
+  head.update(messageJson(datagram, robot));
+  out += dump(head);
 }
 
 void addMessageLine(std::string& out, const link::LiveDatagram& datagram,

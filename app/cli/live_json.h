@@ -20,9 +20,10 @@ const char* typeOf(const link::LiveDatagram& datagram);
 bool isGood(const link::LiveDatagram& datagram);
 /// Returns the robot's name, such as "B1" or "Robot 1"; empty for number 0.
 std::string nameOf(const RobotKey& robot, const link::Teams& teams);
-/// Returns the content of a datagram (docs/live.md). If it could not be decoded, "text" has its
-/// bytes as text.
-Json messageJson(const link::LiveDatagram& datagram, const link::LiveOptions& options);
+/// Appends a JSON object: the members of `head`, then the content of a datagram (docs/live.md). If
+/// it could not be decoded, "text" has its bytes as text.
+void addMessageJson(std::string& out, Json head, const link::LiveDatagram& datagram,
+                    const link::LiveOptions& options);
 void addMessageLine(std::string& out, const link::LiveDatagram& datagram,
                     const link::LiveOptions& options);
 

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -15,9 +14,8 @@
 
 #include <app/usage.h>
 #include <base/try.h>
-#include <robotlink/serve/served_match.h>
+#include <robotlink/serve/served_session.h>
 #include <robotlink/session/match_recorder.h>
-#include <robotlink/session/recorded_frame.h>
 #include <telemetry/foxglove/foxglove_server.h>
 #include <telemetry/session/session_time.h>
 #include <telemetry/wire/live_clock.h>
@@ -72,14 +70,8 @@ void reportServing(const ServeOptions& options, const FoxgloveServer& server) {
 /// Plays a session as clients ask. Main thread, except ask().
 class SessionPlaying {
  public:
-  SessionPlaying(const telemetry::SessionReader& session, double at, double speed, bool paused)
-      : m_session(session),
-        m_range(*session.range()),
-        m_events(session.events()),
-        m_frames(link::backdropOf(session)),
-        m_time(at),
-        m_speed(speed),
-        m_plays(!paused) {}
+  SessionPlaying(const telemetry::SessionReader& session, double speed, bool paused)
+      : m_session(session), m_speed(speed), m_plays(!paused) {}
 
   /// Called on the server's thread.
   void ask(const FoxglovePlaybackControl& control) {
@@ -87,30 +79,29 @@ class SessionPlaying {
     m_asked.push_back(control);
   }
 
-  void play(FoxgloveServer& server, double rate) {
-    const auto served = std::make_shared<link::ServedMatch>(
-        server, [this](double seconds) { return m_session.logTime(seconds); });
-    for (const auto& group : m_session.groups()) served->addGroup(group.info);
+  void play(FoxgloveServer& server, double at, double rate) {
+    link::ServedSession served(m_session, server);
     const auto step = std::chrono::duration<double>(1.0 / rate);
-    show(*served);
-    tell(server, {});
+    served.show(at);
+    tell(server, served, {});
     for (auto before = SteadyClock::now(); !interrupted;) {
-      const bool wasAsked = carryOut(server, *served);
+      const bool wasAsked = carryOut(server, served);
       const auto now = SteadyClock::now();
       const double passed = std::chrono::duration<double>(now - before).count();
       before = now;
-      if (m_plays && !wasAsked) goOn(*served, m_time + passed * m_speed);
-      served->setTime(m_time);
-      if (m_plays && m_time >= m_range.end) {
+      if (m_plays && !wasAsked) {
+        served.playTo(served.time() + passed * m_speed, [] { return !interrupted; });
+      }
+      if (m_plays && served.time() >= served.range().end) {
         m_plays = false;
-        tell(server, {});
+        tell(server, served, {});
       }
       std::this_thread::sleep_for(step);
     }
   }
 
  private:
-  bool carryOut(FoxgloveServer& server, link::ServedMatch& served) {
+  bool carryOut(FoxgloveServer& server, link::ServedSession& served) {
     std::vector<FoxglovePlaybackControl> asked;
     {
       const std::lock_guard lock(m_mutex);
@@ -120,57 +111,28 @@ class SessionPlaying {
       m_plays = one.plays;
       m_speed = one.speed;
       if (one.seek) {
-        m_time = std::clamp(m_session.seconds(*one.seek), m_range.begin, m_range.end);
-        show(served);
-      } else if (m_plays && m_time >= m_range.end) {
-        m_time = m_range.begin;  // again from the beginning
-        show(served);
+        served.show(m_session.seconds(*one.seek));
+      } else if (m_plays && served.time() >= served.range().end) {
+        served.show(served.range().begin);  // again from the beginning
       }
-      tell(server, one);
+      tell(server, served, one);
     }
     return !asked.empty();
   }
-  void tell(FoxgloveServer& server, const FoxglovePlaybackControl& asked) {
+  void tell(FoxgloveServer& server, const link::ServedSession& served,
+            const FoxglovePlaybackControl& asked) const {
     using Status = FoxglovePlaybackState::Status;
-    server.setPlayback({.status = m_plays                 ? Status::Playing
-                                  : m_time >= m_range.end ? Status::Ended
-                                                          : Status::Paused,
-                        .time = m_session.logTime(m_time),
+    server.setPlayback({.status = m_plays                               ? Status::Playing
+                                  : served.time() >= served.range().end ? Status::Ended
+                                                                        : Status::Paused,
+                        .time = m_session.logTime(served.time()),
                         .speed = m_speed,
                         .didSeek = asked.seek.has_value(),
                         .requestId = asked.requestId});
   }
-  /// What holds at the present moment.
-  void show(link::ServedMatch& served) {
-    m_session.rowsAt(m_time, m_rows);
-    for (std::size_t g = 0; g < m_rows.size(); ++g) {
-      if (m_rows[g].present) served.append(static_cast<telemetry::GroupId>(g), m_rows[g].view());
-    }
-    served.show(m_frames.frameAt(m_session, m_time));
-  }
-  void goOn(link::ServedMatch& served, double time) {
-    const double begin = std::nextafter(m_time, std::numeric_limits<double>::infinity());
-    m_time = std::min(time, m_range.end);
-    m_session.walk({begin, m_time}, [&](const telemetry::SessionItem& item) {
-      if (item.isRow) {
-        served.append(item.group, item.row);
-      } else if (item.stream == telemetry::SessionStream::Log) {
-        if (const auto line = telemetry::sessionLogLine(item.message->data)) served.append(*line);
-      }
-      return !interrupted;
-    });
-    for (const telemetry::SessionEvent& event : m_events) {
-      if (event.time >= begin && event.time <= m_time) served.append(event);
-    }
-    served.show(m_frames.frameAt(m_session, m_time));
-  }
 
   const telemetry::SessionReader& m_session;
-  telemetry::TimeRange m_range;
-  std::vector<telemetry::SessionEvent> m_events;
-  link::RecordedFrames m_frames;
-  std::vector<telemetry::SessionRow> m_rows;
-  double m_time, m_speed;
+  double m_speed;
   bool m_plays;
   std::mutex m_mutex;
   std::vector<FoxglovePlaybackControl> m_asked;
@@ -198,13 +160,13 @@ Result<int> serveSession(const ServeOptions& options) {
   if (speed <= 0.0) {
     return failure(ErrorCode::InvalidArgument, "--speed of a recording must be a number, not max");
   }
-  SessionPlaying playing(session, at, speed, options.paused);
+  SessionPlaying playing(session, speed, options.paused);
   auto server = TRY(serverOptions(options, session.info().title));
   server.playback = {session.logTime(range->begin), session.logTime(range->end)};
   server.control = [&playing](const FoxglovePlaybackControl& control) { playing.ask(control); };
   const auto running = TRY(FoxgloveServer::start(server));
   reportServing(options, *running);
-  playing.play(*running, options.rate);
+  playing.play(*running, at, options.rate);
   return 0;
 }
 

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/query/stretch.h>
-#include <telemetry/statistics/histogram.h>
+#include <telemetry/query/stretch_table.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
 
-#include <base/csv_field.h>
 #include <base/nearest_name.h>
 #include <base/try.h>
 #include <base/wildcard.h>
@@ -37,80 +36,10 @@ struct StatisticsCommand {
   bool json = false, csv = false, progress = false;
 };
 
-/// What is wanted of a session: expressions, and what tables call them.
-struct Wanted {
-  std::vector<std::string> texts, names;
-};
-
-/// A line of the table. Names of files are those of pitchboard.statistics in Python.
-struct Line {
-  std::string session, robot, variable, unit;
-  std::optional<StateShare> state;  ///< of one value of a code
-  std::string label;
-  CurveSummary summary;
-  std::optional<CurveError> error;
-  std::optional<CurveCorrelation> correlation;
-  std::vector<std::size_t> counts;  ///< histogram from the smallest to the largest value
-};
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-struct NumberColumn {
-  std::string name;
-  double (*of)(const Line&);
-};
-
-const std::vector<NumberColumn>& summaryColumns() {
-  static const std::vector<NumberColumn> columns = [] {
-    std::vector<NumberColumn> out{
-        {"value", [](const Line& l) { return l.state ? l.state->value : unknown; }},
-        {"share", [](const Line& l) { return l.state ? l.state->share : l.summary.share; }},
-        {"n",
-         [](const Line& l) {
-           return static_cast<double>(l.state ? l.state->samples : l.summary.samples);
-         }},
-        {"missing", [](const Line& l) { return static_cast<double>(l.summary.missing); }},
-        {"n_effective", [](const Line& l) { return l.summary.effective; }},
-        {"mean", [](const Line& l) { return l.summary.mean; }},
-        {"mean_95_low", [](const Line& l) { return l.summary.meanLow; }},
-        {"mean_95_high", [](const Line& l) { return l.summary.meanHigh; }},
-        {"sd", [](const Line& l) { return l.summary.deviation; }},
-        {"rms", [](const Line& l) { return l.summary.rms; }},
-        {"min", [](const Line& l) { return l.summary.least; }},
-        {"min_time", [](const Line& l) { return l.summary.leastAt; }},
-        {"p05", [](const Line& l) { return l.summary.quantiles[0]; }},
-        {"p25", [](const Line& l) { return l.summary.quantiles[1]; }},
-        {"median", [](const Line& l) { return l.summary.quantiles[2]; }},
-        {"p75", [](const Line& l) { return l.summary.quantiles[3]; }},
-        {"p95", [](const Line& l) { return l.summary.quantiles[4]; }},
-        {"max", [](const Line& l) { return l.summary.most; }},
-        {"max_time", [](const Line& l) { return l.summary.mostAt; }}};
-    return out;
-  }();
-  return columns;
-}
-
-const std::vector<NumberColumn>& errorColumns() {
-  static const std::vector<NumberColumn> columns{
-      {"error_n",
-       [](const Line& l) { return l.error ? static_cast<double>(l.error->samples) : unknown; }},
-      {"bias", [](const Line& l) { return l.error ? l.error->bias : unknown; }},
-      {"bias_95_low", [](const Line& l) { return l.error ? l.error->biasLow : unknown; }},
-      {"bias_95_high", [](const Line& l) { return l.error ? l.error->biasHigh : unknown; }},
-      {"error_rms", [](const Line& l) { return l.error ? l.error->rms : unknown; }},
-      {"largest_error", [](const Line& l) { return l.error ? l.error->largest : unknown; }},
-      {"largest_error_time", [](const Line& l) { return l.error ? l.error->largestAt : unknown; }},
-      {"correlation",
-       [](const Line& l) { return l.correlation ? l.correlation->atZero : unknown; }},
-      {"delay", [](const Line& l) { return l.correlation ? l.correlation->delay : unknown; }},
-      {"delayed_correlation",
-       [](const Line& l) { return l.correlation ? l.correlation->coefficient : unknown; }}};
-  return columns;
-}
-
 /// What --variables and --expr mean in a session.
-Result<Wanted> wantedIn(const SessionReader& session, const StatisticsCommand& command) {
-  Wanted out;
+Result<std::vector<StretchQuestion::Text>> wantedIn(const SessionReader& session,
+                                                    const StatisticsCommand& command) {
+  std::vector<StretchQuestion::Text> out;
   std::set<GroupId> chosen;
   for (const std::string& robot : command.robots) {
     const std::vector<GroupId> groups = TRY(session.groupsNamed(robot));
@@ -128,9 +57,8 @@ Result<Wanted> wantedIn(const SessionReader& session, const StatisticsCommand& c
     for (const std::string_view name : known) {
       if (!fitsWildcard(pattern, name)) continue;
       isUsed = true;
-      if (std::ranges::count(out.names, name) > 0) continue;
-      out.names.emplace_back(name);
-      out.texts.push_back("{each/" + std::string(name) + "}");
+      if (std::ranges::count(out, name, &StretchQuestion::Text::name) > 0) continue;
+      out.push_back({"{each/" + std::string(name) + "}", std::string(name)});
     }
     if (isUsed) continue;
     const std::string_view near = nearestName(pattern, known);
@@ -140,8 +68,7 @@ Result<Wanted> wantedIn(const SessionReader& session, const StatisticsCommand& c
                                      : "; did you mean \"" + std::string(near) + "\"?"));
   }
   for (const std::string& expression : command.expressions) {
-    out.names.push_back(expression);
-    out.texts.push_back(expression);
+    out.push_back({expression, expression});
   }
   return out;
 }
@@ -166,89 +93,38 @@ Result<std::vector<TimeRange>> rangesOf(const SessionReader& session,
   return out;
 }
 
-/// The curve that `against` means for the robot of another one; null if there is none.
-const StretchCurve* otherOf(const std::vector<StretchCurve>& others, const QueryCurve& curve) {
-  const auto found = std::ranges::find_if(others, [&](const StretchCurve& one) {
-    return !one.curve.isOfEach || one.curve.robot == curve.robot;
-  });
-  return found == others.end() ? nullptr : &*found;
-}
-
-Result<void> compare(const StretchCurve& curve, const StretchCurve& other,
-                     const StatisticsCommand& command, Line& line) {
-  if (!curve.curve.unit.empty() && !other.curve.unit.empty() &&
-      curve.curve.unit != other.curve.unit) {
-    return failure(ErrorCode::InvalidArgument,
-                   "--against: " + line.variable + " is in " + curve.curve.unit + ", " +
-                       command.against + " in " + other.curve.unit +
-                       ". Convert one with an expression, such as --expr 'X / 100'.");
-  }
-  line.error = errorAgainst(curve.samples, other.samples, curve.counted);
-  line.correlation = correlationOf(curve.samples, other.samples, command.maxDelay.value_or(1.0));
-  return {};
-}
-
-constexpr std::size_t textsAtOnce = 16;  // so that not all curves of a session are in memory
-
 Result<void> describeSession(const std::string& file, const StatisticsCommand& command,
-                             const std::function<bool()>& goOn, std::vector<Line>& lines) {
+                             const std::function<bool(double)>& progress,
+                             std::vector<StretchLine>& lines) {
   McapReaderOptions reading;
-  reading.progress = [&goOn](double) { return goOn(); };
+  reading.progress = [&progress](double) { return progress(0.0); };
   const SessionReader session = TRY(SessionReader::open(file, reading));
   if (session.isForeign()) {
     return failure(ErrorCode::Unsupported,
                    "Another program recorded this file. Make a session of it with pitchboard-cli "
                    "import.");
   }
-  const Wanted wanted = TRY(wantedIn(session, command));
+  StretchQuestion question;
+  question.texts = TRY(wantedIn(session, command));
+  question.condition = command.condition;
+  question.robots = command.robots;
+  question.against = command.against;
+  question.maxDelay = command.maxDelay.value_or(question.maxDelay);
+  question.bins = static_cast<std::size_t>(command.bins);
   const std::vector<TimeRange> ranges = TRY(rangesOf(session, command));
-  std::vector<StretchCurve> others;
-  if (!command.against.empty()) {
-    others = TRY(readStretch(session, {{command.against}, {}, command.robots}, ranges, goOn));
-  }
-  for (std::size_t begin = 0; begin < wanted.texts.size(); begin += textsAtOnce) {
-    const auto end = std::min(wanted.texts.size(), begin + textsAtOnce);
-    QueryTexts texts{{wanted.texts.begin() + static_cast<std::ptrdiff_t>(begin),
-                      wanted.texts.begin() + static_cast<std::ptrdiff_t>(end)},
-                     command.condition,
-                     command.robots};
-    for (const StretchCurve& curve : TRY(readStretch(session, texts, ranges, goOn))) {
-      const bool isCode = curve.curve.kind != ColumnKind::Number;
-      Line line;
-      line.session = file;
-      line.robot = curve.curve.robot;
-      line.variable = wanted.names[begin + curve.curve.value];
-      line.unit = curve.curve.unit;
-      line.summary = summaryOf(curve.samples, curve.counted, isCode);
-      if (command.bins > 0 && line.summary.least <= line.summary.most) {
-        std::vector<double> values;
-        for (const Sample& sample : curve.samples) values.push_back(sample.value);
-        line.counts = histogram(values, line.summary.least, line.summary.most,
-                                static_cast<std::size_t>(command.bins));
-      }
-      if (const StretchCurve* other = otherOf(others, curve.curve); other && !isCode) {
-        TRY(compare(curve, *other, command, line));
-      }
-      lines.push_back(line);
-      if (!isCode) continue;
-      for (const StateShare& state : statesOf(curve.samples).value_or(std::vector<StateShare>())) {
-        Line one;
-        one.session = line.session;
-        one.robot = line.robot;
-        one.variable = line.variable;
-        one.summary = summaryOf({}, {}, true);
-        one.state = state;
-        const auto label = curve.curve.labels.find(static_cast<std::int32_t>(state.value));
-        if (label != curve.curve.labels.end()) one.label = label->second;
-        lines.push_back(std::move(one));
-      }
-    }
+  StretchTable table = TRY(describeStretch(session, question, ranges, progress));
+  if (!table.problems.empty()) return tl::unexpected(table.problems.front().error);
+  for (StretchLine& line : table.lines) {
+    line.session = file;
+    lines.push_back(std::move(line));
   }
   for (const std::string& note : session.notes()) {
     std::fprintf(stderr, "warning: %s: %s\n", file.c_str(), note.c_str());
   }
   return {};
 }
+
+constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
 
 std::string shortNumber(double value) {
   if (!std::isfinite(value)) return "-";
@@ -258,50 +134,16 @@ std::string shortNumber(double value) {
   return text;
 }
 
-std::string fullNumber(double value) {
-  if (!std::isfinite(value)) return {};
-  char text[40];
-  std::snprintf(text, sizeof text, "%.12g", value);
-  return text;
-}
-
-std::vector<NumberColumn> columnsOf(const StatisticsCommand& command) {
-  std::vector<NumberColumn> columns = summaryColumns();
-  if (!command.against.empty()) {
-    columns.insert(columns.end(), errorColumns().begin(), errorColumns().end());
-  }
-  return columns;
-}
-
-void printCsv(const std::vector<Line>& lines, const StatisticsCommand& command) {
-  const std::vector<NumberColumn> columns = columnsOf(command);
-  std::string out = "session,robot,variable,unit,label";
-  for (const NumberColumn& column : columns) out += "," + column.name;
-  if (command.bins > 0) out += ",histogram";
-  out += "\n";
-  for (const Line& line : lines) {
-    out += csvField(line.session) + "," + csvField(line.robot) + "," + csvField(line.variable) +
-           "," + csvField(line.unit) + "," + csvField(line.label);
-    for (const NumberColumn& column : columns) out += "," + fullNumber(column.of(line));
-    if (command.bins > 0) out += ",";
-    for (std::size_t i = 0; i < line.counts.size(); ++i) {
-      out += (i > 0 ? " " : "") + std::to_string(line.counts[i]);
-    }
-    out += "\n";
-  }
-  std::fwrite(out.data(), 1, out.size(), stdout);
-}
-
-void printJson(const std::vector<Line>& lines, const StatisticsCommand& command) {
+void printJson(const std::vector<StretchLine>& lines, const StatisticsCommand& command) {
   using Json = nlohmann::ordered_json;
   Json all = Json::array();
-  for (const Line& line : lines) {
+  for (const StretchLine& line : lines) {
     Json one{{"session", line.session},
              {"robot", line.robot},
              {"variable", line.variable},
              {"unit", line.unit},
              {"label", line.label}};
-    for (const NumberColumn& column : columnsOf(command)) {
+    for (const StretchColumn& column : stretchColumns(!command.against.empty())) {
       const double value = column.of(line);
       one[column.name] = std::isfinite(value) ? Json(value) : Json();
     }
@@ -336,10 +178,10 @@ void printCells(const std::vector<std::vector<std::string>>& rows, std::size_t t
   }
 }
 
-void printText(const std::vector<Line>& lines, const StatisticsCommand& command) {
+void printText(const std::vector<StretchLine>& lines, const StatisticsCommand& command) {
   const bool isCompared = !command.against.empty();
   std::vector<std::vector<std::string>> numbers, states, comparisons, histograms;
-  const auto head = [&](const Line& line) {
+  const auto head = [&](const StretchLine& line) {
     std::vector<std::string> cells{line.robot, line.variable};
     if (command.files.size() > 1) cells.insert(cells.begin(), line.session);
     return cells;
@@ -351,13 +193,13 @@ void printText(const std::vector<Line>& lines, const StatisticsCommand& command)
     if (command.files.size() > 1) titles.insert(titles.begin(), "session");
     table.push_back(std::move(titles));
   };
-  const auto add = [&](std::vector<std::vector<std::string>>& table, const Line& line,
+  const auto add = [&](std::vector<std::vector<std::string>>& table, const StretchLine& line,
                        std::vector<std::string> cells) {
     std::vector<std::string> row = head(line);
     row.insert(row.end(), cells.begin(), cells.end());
     table.push_back(std::move(row));
   };
-  for (const Line& line : lines) {
+  for (const StretchLine& line : lines) {
     const CurveSummary& s = line.summary;
     if (line.state) {
       begin(states, {"state", "share", "n"});
@@ -387,8 +229,8 @@ void printText(const std::vector<Line>& lines, const StatisticsCommand& command)
            std::isfinite(e.biasLow) ? shortNumber(e.biasLow) + " to " + shortNumber(e.biasHigh)
                                     : "-",
            shortNumber(e.rms), shortNumber(e.largest), shortNumber(e.largestAt),
-           shortNumber(c ? c->atZero : unknown), shortNumber(c ? c->delay : unknown),
-           shortNumber(c ? c->coefficient : unknown)});
+           shortNumber(c ? c->atZero : noValue), shortNumber(c ? c->delay : noValue),
+           shortNumber(c ? c->coefficient : noValue)});
     }
     if (!line.counts.empty()) {
       begin(histograms, {"from", "to", "n", ""});
@@ -428,14 +270,14 @@ Result<int> describe(const StatisticsCommand& command) {
   }
   const InterruptGuard signals;
   Progress progress("reading", command.progress);
-  std::vector<Line> lines;
+  std::vector<StretchLine> lines;
   int exitCode = 0;
   for (std::size_t i = 0; i < command.files.size(); ++i) {
     const std::string& file = command.files[i];
-    const auto goOn = [&] {
-      return progress(static_cast<double>(i) / static_cast<double>(command.files.size()));
+    const auto report = [&](double part) {
+      return progress((static_cast<double>(i) + part) / static_cast<double>(command.files.size()));
     };
-    if (const auto done = describeSession(file, command, goOn, lines); !done) {
+    if (const auto done = describeSession(file, command, report, lines); !done) {
       if (interrupted) return failure(ErrorCode::Conflict, "Stopped.");
       Error error = done.error();
       if (!error.context.starts_with(file)) error.context = file;
@@ -445,7 +287,8 @@ Result<int> describe(const StatisticsCommand& command) {
   }
   if (lines.empty()) return exitCode;
   if (command.csv) {
-    printCsv(lines, command);
+    const std::string text = stretchCsv(lines, !command.against.empty(), command.bins > 0);
+    std::fwrite(text.data(), 1, text.size(), stdout);
   } else if (command.json) {
     printJson(lines, command);
   } else {

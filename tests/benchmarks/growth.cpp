@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How cost grows with the work: each kind of work at five sizes, one after the other in one
-// process, so that the larger ones find the heap as the smaller ones left it. Prints time, memory
-// and bytes written of the largest size, and the exponent of each: 1 if twice the work costs twice
-// as much. Exits with 1 if an exponent is above its limit. scripts/growth.sh builds and runs it.
+// process, so that the larger ones find the heap as the smaller ones left it. Prints processor
+// time, memory and bytes written of the largest size, and the exponent of each: 1 if twice the work
+// costs twice as much. Exits with 1 if an exponent is above its limit. scripts/growth.sh builds and
+// runs it.
 //
 //     growth [WORD]      only kinds whose name contains the word
 
 #include <malloc.h>
 #include <pitchboard_sim.h>
+#include <time.h>
 
 #include <QCoreApplication>
 #include <array>
@@ -44,8 +46,11 @@ struct Cost {
   double fileBytes = 0.0;
 };
 
+/// Processor time of all threads: other programs change it little.
 double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  timespec time{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 double heapInUse() {
   const struct mallinfo2 info = ::mallinfo2();

@@ -37,10 +37,9 @@ inline QStringList all(const QString& library) {
        {"blackboard", "processes", "models",      "cognition", "rollout", "scenario", "frame",
         "match",      "live",      "session",     "import",    "report",  "serve",    "experiment",
         "learn",      "calibrate", "conformance", "capi",      "explore", "rerun"}},
-      {"ui",
-       {"base", "sources", "field", "robots", "variables", "plots", "timeline", "live", "session",
-        "noise", "processes", "log", "referee", "experiments", "calibrate", "explore", "rerun",
-        "window"}}};
+      {"ui", {"base",      "sources", "field", "robots",    "variables",  "plots",   "timeline",
+              "live",      "session", "noise", "processes", "log",        "referee", "experiments",
+              "calibrate", "explore", "rerun", "share",     "statistics", "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;

@@ -52,6 +52,21 @@ class TestCliExplore : public QObject {
     QCOMPARE(explore(arguments + QStringList{"--json", "--truth"}).out, json.out);
   }
 
+  /// The game is that of the moment, and not that with which the scenario began.
+  void theGameIsThatOfTheMoment() {
+    const QString session = m_folder.filePath(QStringLiteral("kick-off.mcap"));
+    const ProgramRun run = runProgram(
+        "pitchboard-cli", {"record", "--scenario", "kick-off", "--duration", "12", "-o", session});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    for (const auto& [at, isSet] : {std::pair{"0.3", true}, std::pair{"10", false}}) {
+      const ProgramRun told =
+          explore({session, "--at", at, "--truth", "--seconds", "1", "--rollouts", "2"});
+      QVERIFY2(told.exitCode == 0, told.err.constData());
+      QVERIFY2(told.out.contains("The game is in SET") == isSet, told.out.constData());
+      QVERIFY2(isSet || !told.out.contains("The game is in"), told.out.constData());
+    }
+  }
+
   void badQuestionsAreNamed_data() {
     QTest::addColumn<QStringList>("arguments");
     QTest::addColumn<QString>("words");

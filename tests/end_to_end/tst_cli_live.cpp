@@ -10,6 +10,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 #include <csignal>
+#include <nlohmann/json.hpp>
 
 #include "../support/program_run.h"
 #include "../support/test_socket.h"
@@ -330,6 +331,44 @@ class TestCliLive : public QObject {
     QCOMPARE(objects.size(), 60);
     QCOMPARE(objects[0]["sender"].toString(), "127.0.0.1:41708");
     QCOMPARE(objects[0]["values"].toObject()["LOCALIZATION_RBT01_X"].toDouble(), 56.3184547424);
+  }
+
+  /// Lines are the bytes that a JSON library makes of the same document.
+  void decodedLinesAreCompactJson() {
+    QTemporaryDir folder;
+    QFile profile(folder.filePath("p.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    const auto quoted = [](QByteArray text) { return text.replace('\'', '"'); };
+    profile.write(
+        quoted("{'name': 't', 'format': 'json', 'fields': ["
+               "{'name': 'ID', 'type': 'int', 'meaning': 'robot', 'key': 'id'},"
+               "{'name': 'TEMP', 'type': 'float', 'key': 't'},"
+               "{'name': 'A', 'type': 'text'}]}"));
+    profile.close();
+    const QByteArray messages = quoted(
+        "{'id': 1, 't': 5, 'A': 'tab\\t, \\', \xc3\xa4, \\u0001', 'x': 0.1, 'y': 1e300, 'x': 7}\n"
+        "{'id': 2, 't': -0.0, 'z': 12345678901234567890, 'TEMP': 'word', 'ID': null, '': 1e-7}\n"
+        "{'id': 3, 't': 'none'}\n{'id': '\x01'}\nno JSON \\ '\n");
+    const QString file = data + "telemetry/telemetry_capture_1_robot_60s.txt";
+    const QList<Outcome> outcomes{
+        run({"decode", "telemetry", "--json", "--profile", profile.fileName(), "-"}, messages),
+        run({"decode", "telemetry", "--json", file}),
+        run({"decode", "telemetry", "--json", "-"},
+            "1 2 3 OUT\nPB2 1 2 3 A=1 B=0.5 OUT\nPBD1 1\n")};
+    int lines = 0;
+    for (const Outcome& outcome : outcomes) {
+      QVERIFY2(outcome.exitCode == 0 || outcome.exitCode == 1, outcome.err.constData());
+      for (const QByteArray& line : outcome.out.split('\n')) {
+        if (line.isEmpty()) continue;
+        ++lines;
+        const auto json = nlohmann::ordered_json::parse(line.toStdString(), nullptr, false);
+        QVERIFY2(!json.is_discarded(), line.constData());
+        QCOMPARE(QByteArray::fromStdString(json.dump()), line);
+      }
+    }
+    QCOMPARE(lines, 68);
+    const QByteArrayList first = outcomes[0].out.split('\n');
+    QVERIFY2(first[0].contains(quoted("'x':7,'y':1e+300")), first[0].constData());
   }
 
   void decodesWithATeamsProfile() {

@@ -14,6 +14,8 @@
 #include <robotlink/live/live_watch.h>
 #include <simcore/world/published_frame.h>
 
+#include "../support/own_match_number.h"
+
 namespace tst_live_match {
 
 using namespace pitchboard;
@@ -21,8 +23,8 @@ using namespace pitchboard;
 class TestLiveMatch : public QObject {
   Q_OBJECT
 
-  // One that nobody plays: its keys and ports are ours.
-  const link::MatchNumber m_number = link::MatchClaim::takeFree().value().number();
+  const OwnMatchNumber m_own;  // its keys and ports are ours
+  const link::MatchNumber m_number = m_own.number();
   const int m_keyBase = m_number.keyBase();
 
  private slots:

@@ -106,6 +106,15 @@ def main():
                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=60)
         assert run.returncode == 2 and place.noted() == "", run
         assert "say --yes" in run.stderr and "cmake ninja-build" in run.stderr, run.stderr
+
+        # The shell has all programs and the library, as the pages use them.
+        cmake = place.folder / "bin/cmake"
+        cmake.write_text(f'#!/bin/sh\necho "$*" >>{place.notes}\n')
+        run = subprocess.run(["./run", "--yes", "--shell"], cwd=place.folder / "checkout", capture_output=True, text=True,
+                             env=place.environment | {"SHELL": "/bin/true"}, stdin=subprocess.DEVNULL, timeout=60)
+        noted = place.noted()
+        assert run.returncode == 0 and "--target programs\n" in noted, (run, noted)
+        assert "pitchboard-agent are in PATH" in run.stderr, run.stderr
     print("./run asks before it uses sudo")
 
 

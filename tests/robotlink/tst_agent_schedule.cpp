@@ -116,6 +116,17 @@ class TestAgentSchedule : public QObject {
     QCOMPARE(rig.sent[name][3].at, 4 * tick);
   }
 
+  /// What a datagram itself brings does not wait.
+  void nothingWaitsWithoutALimit() {
+    Rig rig(200);
+    while (rig.now < 5 * second) {
+      for (std::uint32_t& word : rig.words) ++word;
+      rig.step();
+      if (rig.status.waiting) QCOMPARE(*rig.status.waiting, std::int64_t{0});
+    }
+    QVERIFY(rig.statusTimes.size() >= 4);
+  }
+
   void everyValueIsSentEveryTwoSecondsSpreadEvenly() {
     Rig rig(200);
     std::size_t before = 0, most = 0;

@@ -13,6 +13,7 @@
 
 #include "../support/calibration_trial.h"
 #include "../support/group_facts.h"
+#include "../support/sanitized.h"
 #include "calibration_check.h"
 #include "executed_actions.h"
 #include "motion_parameters.h"
@@ -197,6 +198,55 @@ class TestCalibrate : public QObject {
     if (what == "gap") QVERIFY(calibration->leftOut.contains("gaps"));
     if (what == "IMU reset") QVERIFY(mentions(*calibration, "Resets of the IMU"));
     if (what == "carried") QVERIFY(mentions(*calibration, "outliers"));
+  }
+
+  /// Another robot that it never sees pushes it aside every 12 s: that is no noise of its gait.
+  void unseenPushesAreLeftOut() {
+#if PITCHBOARD_SANITIZED
+    QSKIP("takes minutes; the others run the same code");
+#endif
+    RecordingOptions options;
+    options.at = [](SimulatedMatch& match, std::uint64_t tick) {
+      if (tick < 1200 || tick % 720 != 0) return;
+      Pose pose = match.simulation().snapshot().robots.front().pose;
+      pose.position.x -= 0.3 * std::sin(pose.yaw);
+      pose.position.y += 0.3 * std::cos(pose.yaw);
+      (void)match.simulation().placeRobot(RobotId{1}, pose);
+    };
+    const CalibrationLog log = logOf(drill(140.0), options);
+    const auto calibration = calibrate(std::span(&log, 1), kidSize());
+    QVERIFY2(calibration.has_value(), calibration ? "" : calibration.error().text().c_str());
+    const char* unseen = "moved by something that it did not see";
+    QVERIFY(calibration->leftOut.contains(unseen));
+    QVERIFY(calibration->leftOut.at(unseen).stretches >= 3);
+    for (const char* key : {"noise.forward", "noise.sideways"}) {
+      const CalibratedValue* noise = calibration->find(key);
+      QVERIFY2(noise == nullptr || noise->low < 2.0 * kidSize().noise.forward, key);
+    }
+    QVERIFY(isNear(*calibration, "forward_fast", kidSize().forwardFast, 0.1));
+  }
+
+  /// Others roll the ball away every 15 s: it tells nothing while it rolls.
+  void aBallThatOthersMoveTellsNothing() {
+#if PITCHBOARD_SANITIZED
+    QSKIP("takes minutes; the others run the same code");
+#endif
+    RecordingOptions options;
+    options.at = [](SimulatedMatch& match, std::uint64_t tick) {
+      if (tick < 1200 || tick % 900 >= 60) return;
+      Point ball = match.simulation().snapshot().ball;
+      ball.y += (tick / 900) % 2 == 0 ? 0.01 : -0.01;
+      (void)match.simulation().placeBall(ball);
+    };
+    const CalibrationLog log = logOf(drill(140.0), options);
+    const auto calibration = calibrate(std::span(&log, 1), kidSize());
+    QVERIFY2(calibration.has_value(), calibration ? "" : calibration.error().text().c_str());
+    QVERIFY(mentions(*calibration, "Moves of the ball by others"));
+    const sim::NoiseParameters truth = kidSize().noise;
+    QVERIFY(isNear(*calibration, "noise.landmark_bearing", truth.landmarkBearing, 0.1));
+    QVERIFY(isNear(*calibration, "noise.vision_bearing", truth.visionBearing, 0.1));
+    const CalibratedValue* noise = calibration->find("noise.forward");
+    QVERIFY(noise == nullptr || noise->low < 2.0 * truth.forward);
   }
 
   /// A robot that is not at all like its base model: said for what moved, and for nothing else.

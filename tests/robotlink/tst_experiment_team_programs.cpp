@@ -80,6 +80,7 @@ class TestExperimentTeamPrograms : public QObject {
   void aProgramThatDiesWhileItPlaysIsNamed();
   void theyPlayBesideInlineRobots();
   void referenceProcessesGiveTheSameFilesHoweverTheyWerePlayed();
+  void blackboardsThatWereThereAreNotUsed();
 };
 
 void TestExperimentTeamPrograms::eachRunHasItsProgramAndItsPaceIsReported() {
@@ -265,6 +266,26 @@ void TestExperimentTeamPrograms::referenceProcessesGiveTheSameFilesHoweverTheyWe
       QVERIFY2(rows[i].section(',', 1).toDouble() > 0.0, qPrintable(rows[i]));
     }
     QCOMPARE(runs, (QSet<QString>{"1", "2", "3", "4"}));
+  }
+}
+
+/// Of programs that were killed, for example. A run does not depend on them, and leaves them alone.
+void TestExperimentTeamPrograms::blackboardsThatWereThereAreNotUsed() {
+  const auto e = experimentFromJson(R"({"version": 1, "name": "left", "processes": "separate",
+    "scenario": {"version": 1,
+      "robots": [{"team": "blue", "number": 1, "id": 64, "x": 0, "y": 0, "behaviour": "naive"}],
+      "writes": [{"variable": "COM_REFEREE", "value": 2}]},
+    "runs": 1, "stop": {"duration": 1}})",
+                                    "test.json");
+  QVERIFY2(e.has_value(), e ? "" : e.error().text().c_str());
+  const int key = blackboardKey(RobotId{64});  // no other test has keys of this robot
+  auto left = SystemVSegments::open(key, AttachMode::AttachOrCreate);
+  QVERIFY2(left.has_value() && left->created(), left ? "" : left.error().text().c_str());
+  auto player = RunPlayer::create(*e, settingsFor({}));
+  const auto result = player->play(1);
+  QVERIFY2(result.has_value(), result ? "" : result.error().text().c_str());
+  for (int word = 0; word < Blackboard::words; ++word) {
+    QCOMPARE(left->read(IntVar{word}), 0);
   }
 }
 

@@ -12,6 +12,7 @@
 #include <robotlink/rerun/rerun_text.h>
 #include <robotlink/session/row_slot.h>
 
+#include "../support/own_match_number.h"
 #include "rerun_rig.h"
 
 namespace tst_rerun_programs {
@@ -54,6 +55,7 @@ class TestRerunPrograms : public QObject {
     Recorded how{scenarioWith("one-robot", noise), 30.0};
     how.scenario.robots[0].runtime.profile = profile;
     how.options.robotProgram = robotProgram;
+    how.options.newBoards = true;
     bool ready = false;
     return record(m_folder, name, how, [&](MatchPlayer& player) {
       while (!ready) {
@@ -159,10 +161,11 @@ class TestRerunPrograms : public QObject {
     const std::string program = write("decide.py", exampleText("ball_robot.py"));
     const auto session = opened(recordWith(program, "none"));
     RerunOptions options = optionsOf(program);
-    options.match = 41;
-    constexpr int key = blackboardKey(RobotId{1}, MatchNumber{41}.keyBase());
+    const OwnMatchNumber own;
+    options.match = own.value();
+    const int key = blackboardKey(RobotId{1}, own.number().keyBase());
     options.speed = 2.0;
-    options.progress = [](double part) {
+    options.progress = [key](double part) {
       const int shmid = shmget(key, 0, 0);
       if (part > 0.05 && shmid >= 0) shmctl(shmid, IPC_RMID, nullptr);
       return true;
@@ -177,8 +180,9 @@ class TestRerunPrograms : public QObject {
     const std::string program = write("decide.py", exampleText("ball_robot.py"));
     const auto session = opened(recordWith(program, "none"));
     RerunOptions options = optionsOf(program);
-    options.match = 42;
-    const int key = blackboardKey(RobotId{1}, MatchNumber{42}.keyBase());
+    const OwnMatchNumber own;
+    options.match = own.value();
+    const int key = blackboardKey(RobotId{1}, own.number().keyBase());
     QVERIFY(SystemVSegments::create(key));
     const auto result = rerun(session, options);
     QVERIFY(SystemVSegments::remove(key));
@@ -188,6 +192,21 @@ class TestRerunPrograms : public QObject {
     // And nothing of ours is left behind.
     QVERIFY(rerun(session, options));
     QVERIFY(!SystemVSegments::info(key));
+  }
+
+  /// Programs that were killed may have left one. Without a number, the rerun takes another one.
+  void aBlackboardThatWasLeftIsPassedBy() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    Recorded how{scenarioWith("one-robot", "none"), 5.0};
+    how.scenario.robots[0].identity.id = RobotId{64};  // no other test has keys of this robot
+    const auto session = opened(record(m_folder, "id64", how));
+    const int key = blackboardKey(RobotId{64});
+    QVERIFY(SystemVSegments::create(key));
+    const int shmid = SystemVSegments::info(key)->shmid;
+    const auto result = rerun(session, optionsOf(program));
+    QCOMPARE(SystemVSegments::info(key)->shmid, shmid);
+    QVERIFY(SystemVSegments::remove(key));
+    QVERIFY2(result, result ? "" : result.error().text().c_str());
   }
 };
 

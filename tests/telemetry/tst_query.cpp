@@ -8,6 +8,7 @@
 #include <telemetry/query/find_moments.h>
 #include <telemetry/query/session_query.h>
 #include <telemetry/query/stretch.h>
+#include <telemetry/query/stretch_table.h>
 
 #include "comparisons.h"
 #include "session_rig.h"
@@ -59,6 +60,17 @@ std::vector<FileMoments> found(const std::vector<std::string>& files, FindOption
   });
   if (!done) qFatal("%s", done.error().text().c_str());
   return out;
+}
+
+/// The rows of a file in memory, as the studio has them.
+std::unique_ptr<SeriesStore> inMemory(const SessionReader& session) {
+  auto store = std::make_unique<SeriesStore>();
+  for (const SessionGroup& group : session.groups()) store->addGroup(group.info);
+  session.rows({-1e9, 1e9}, {}, [&](GroupId group, const RowView& row) {
+    store->append(group, row);
+    return true;
+  });
+  return store;
 }
 
 QStringList lines(const FileMoments& of) {
@@ -275,6 +287,79 @@ class TestQuery : public QObject {
     QCOMPARE(readStretch(*session, {{"B1.DIST - B2.DIST"}, {}, {}}, parts)->front().curve.unit,
              std::string("cm"));
     QVERIFY(!readStretch(*session, {{"DIST"}, {}, {"B7"}}, parts));
+  }
+
+  void memoryAndFileGiveTheSameTable() {
+    for (const std::string& file : {m_small, m_long}) {
+      const auto session = SessionReader::open(file);
+      const auto store = inMemory(*session);
+      const std::vector<TimeRange> parts{{0.35, 1.25}, {1.35, file == m_small ? 15.0 : 900.0}};
+      StretchQuestion question;
+      for (const char* text : {"DIST", "{each/odd name} * 2", "SEEN", "B1.DIST - B2.DIST",
+                               "B1.DIST + match.DIST", "known(DIST)"}) {
+        question.texts.push_back({text, text});
+      }
+      question.against = "{B2/odd name} * 100";
+      question.maxDelay = 0.5;
+      question.bins = 7;
+      question.placeX = "{B1/odd name}";
+      question.placeY = "B2.DIST";
+      question.grid = {-2000.0, -2000.0, 10.0, 400, 400};
+      for (const char* condition : {"", "match.DIST > 0 || B2.DIST > DIST"}) {
+        question.condition = condition;
+        const auto ofFile = describeStretch(*session, question, parts);
+        const auto ofMemory = describeStretch(QueryRows(*store), question, parts);
+        QVERIFY2(ofFile && ofMemory, ofFile ? "" : ofFile.error().text().c_str());
+        QVERIFY(ofFile->lines.size() > 10);
+        QCOMPARE(stretchCsv(ofMemory->lines, true, true), stretchCsv(ofFile->lines, true, true));
+        QCOMPARE(ofMemory->problems.size(), ofFile->problems.size());
+        QVERIFY(ofMemory->lines.front().map);
+        QVERIFY(ofMemory->lines.front().map->counts == ofFile->lines.front().map->counts);
+      }
+    }
+  }
+
+  void aTableSaysWhatItCouldNotDescribe() {
+    const auto session = SessionReader::open(m_small);
+    const std::vector<TimeRange> all{{0.0, 20.0}};
+    StretchQuestion question;
+    question.texts = {
+        {"DISTT", "DISTT"}, {"DIST +", "DIST +"}, {"DIST", "DIST"}, {"{each/odd name}", "odd"}};
+    question.robots = {"B1"};
+    question.against = "DIST";
+    const auto table = describeStretch(*session, question, all);
+    QVERIFY(table);
+    QCOMPARE(table->lines.size(), std::size_t{2});
+    QCOMPARE(table->lines.front().error->largest, 0.0);
+    QVERIFY(!table->lines.back().error);  // m against cm
+    QCOMPARE(table->problems.size(), std::size_t{3});
+    QVERIFY(table->problems[0].error.message.find("did you mean DIST?") != std::string::npos);
+    QVERIFY(table->problems[2].error.message.find("is in m, DIST in cm") != std::string::npos);
+    // Progress goes up, and ends it.
+    double last = 0.0;
+    QVERIFY(describeStretch(*session, question, all, [&](double part) {
+      const bool rises = part >= last && part <= 1.0;
+      last = part;
+      return rises;
+    }));
+    QCOMPARE(last, 1.0);
+    const auto stopped = describeStretch(*session, question, all, [](double) { return false; });
+    QVERIFY(!stopped && stopped.error().code == ErrorCode::Conflict);
+    question.condition = "NOSUCH > 1";
+    QVERIFY(!describeStretch(*session, question, all));
+  }
+
+  void valuesByPlace() {
+    // 1, 3 in the first square, 5 in the last, one outside, and two that do not count.
+    const std::vector<Sample> values{{0, 1}, {1, 3}, {2, 5}, {3, 7}, {4, std::nan("")}, {20, 9}};
+    const std::vector<Sample> x{{0, -0.9}, {2, 0.9}, {3, 1.5}, {4, 0.0}};
+    const std::vector<Sample> y{{0, -0.9}, {2, 0.1}};
+    const ValueMap map = valueMap(values, x, y, {-1.0, -1.0, 1.0, 2, 2});
+    QVERIFY(map.counts == (std::vector<std::uint64_t>{2, 0, 0, 1}));
+    QCOMPARE(map.means[0], 2.0);
+    QCOMPARE(map.means[3], 5.0);
+    QVERIFY(std::isnan(map.means[1]));
+    QCOMPARE(map.outside, std::uint64_t{1});
   }
 
   void rangesAreBetweenEvents() {

@@ -187,6 +187,43 @@ class TestSessionExport : public QObject {
   }
 
   /// Bookmarks that were set in Replay vanished without a word.
+  /// Chunks of a copy end by their size and not by the clock, and only few of them wait in memory.
+  void aCopyHasTheSameBytesEveryTime() {
+    const std::string path = newPath();
+    SessionWriterOptions options;
+    options.waitWhenFull = true;
+    auto writer = SessionWriter::create(path, sessionInfo(), options);
+    std::string text(50'000, ' ');
+    for (int i = 0; i < 400; ++i) {  // 20 MB, more than may wait
+      for (char& c : text) c = static_cast<char>('a' + (c + i) % 23);
+      (*writer)->appendJson(
+          SessionStream::Telemetry, i / 60.0,
+          "{\"time\":" + std::to_string(i / 60.0) + ",\"text\":\"" + text + "\"}");
+      append(**writer, rowOf((*writer)->addGroup(robotGroup("B1", 1)), i));
+    }
+    QVERIFY((*writer)->finish());
+    const auto reader = SessionReader::open(path);
+    QVERIFY(reader);
+    QByteArrayList copies;
+    for (int i = 0; i < 2; ++i) {
+      const std::string to = newPath();
+      QVERIFY(exportFile(*reader, ExportFormat::Mcap, {}, to));
+      QFile file(QString::fromStdString(to));
+      QVERIFY(file.open(QIODevice::ReadOnly));
+      copies << file.readAll();
+      const auto copy = SessionReader::open(to);
+      QVERIFY(copy);
+      const auto& chunks = copy->file().contents().chunks;
+      QVERIFY(chunks.size() >= 10);
+      for (std::size_t c = 0; c + 1 < chunks.size(); ++c) {
+        const std::uint64_t size = chunks[c].uncompressedSize;
+        QVERIFY2(chunks[c].channels.empty() || size >= options.chunkBytes,
+                 qPrintable(QString::number(size)));
+      }
+    }
+    QCOMPARE(copies[0], copies[1]);
+  }
+
   void notesBesideTheFileGoAlong() {
     const std::string path = newPath();
     {

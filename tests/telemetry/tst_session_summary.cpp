@@ -3,6 +3,8 @@
 // views that page.
 
 #include <QtTest>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -139,6 +141,74 @@ class TestSessionSummary : public QObject {
     }
     QVERIFY(reader->notes().empty());
     QCOMPARE(reader->events().size(), std::size_t{8});
+  }
+
+  /// Columns of every kind in any order, short rows, infinities, signed zeros, and unknown values
+  /// of several kinds, against a loop that takes one value at a time.
+  void bucketsHoldTheExtremesOfAnyColumns() {
+    constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::array types{ColumnType::Int32, ColumnType::Float32, ColumnType::Float64};
+    const std::array<double, 8> values{
+        1.5,          -2.0,          0.0,  -0.0,
+        std::nan(""), -std::nan(""), 1e39, -std::numeric_limits<double>::infinity()};
+    std::mt19937 random(48);
+    for (int round = 0; round < 30; ++round) {
+      GroupInfo group{"B1", {}, {}, {}, {}};
+      std::size_t words = 0, doubles = 0;
+      for (int c = static_cast<int>(random() % 40); c >= 0; --c) {
+        ColumnInfo column{
+            "C" + std::to_string(c), types[random() % 3], "", "", ColumnKind::Number, {}};
+        if (random() % 6 == 0) column.lost.push_back({"C0", 1.5});
+        ++(column.type == ColumnType::Float64 ? doubles : words);
+        group.columns.push_back(std::move(column));
+      }
+      const std::vector<Slot> places = slotsOf(group.columns);
+      const std::vector<Losable> losable = losableColumns(group);
+      SummaryPart::Column start{{unknown}, {unknown}, {unknown}};
+      std::vector<SummaryPart::Column> expected(group.columns.size(), start);
+      SummaryBuilder builder(group);
+      for (int row = static_cast<int>(random() % 200); row >= 0; --row) {
+        std::vector<std::uint32_t> ownWords;
+        std::vector<double> ownValues;
+        for (std::size_t i = random() % 10 == 0 ? words / 2 : 0; i < words; ++i) {
+          const auto value = static_cast<float>(values[random() % values.size()]);
+          ownWords.push_back(std::bit_cast<std::uint32_t>(value));
+        }
+        for (std::size_t i = 0; i < doubles; ++i) {
+          ownValues.push_back(values[random() % values.size()]);
+        }
+        const RowView view{0.02 * row, ownWords, ownValues};
+        QVERIFY(!builder.add(view.time, view));
+        for (std::size_t c = 0; c < places.size(); ++c) {
+          const auto [type, index] = places[c];
+          float number = unknown;
+          if (type == ColumnType::Float64)
+            number = static_cast<float>(ownValues[index]);
+          else if (index < ownWords.size() && type == ColumnType::Int32)
+            number = static_cast<float>(std::bit_cast<std::int32_t>(ownWords[index]));
+          else if (index < ownWords.size())
+            number = std::bit_cast<float>(ownWords[index]);
+          for (const Losable& one : losable) {
+            if (one.column == c && one.isLost(view)) number = unknown;
+          }
+          float& min = expected[c].min[0];
+          float& max = expected[c].max[0];
+          if (!std::isnan(number) && !(min <= number)) min = number;
+          if (!std::isnan(number) && !(max >= number)) max = number;
+          expected[c].last[0] = number;
+        }
+      }
+      const auto part = builder.finish();
+      QVERIFY(part);
+      const auto bits = [](const SummaryPart::Column& column) {
+        return std::array{std::bit_cast<std::uint32_t>(column.min[0]),
+                          std::bit_cast<std::uint32_t>(column.max[0]),
+                          std::bit_cast<std::uint32_t>(column.last[0])};
+      };
+      for (std::size_t c = 0; c < places.size(); ++c) {
+        QCOMPARE(bits(part->columns[c]), bits(expected[c]));
+      }
+    }
   }
 
   void aPagedViewShowsTheWholeLengthAndThenEveryRow() {

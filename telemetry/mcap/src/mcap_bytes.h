@@ -3,13 +3,13 @@
 
 // Little-endian numbers, strings and maps of MCAP records, to and from bytes. Any thread.
 
-#include <zlib.h>
 #include <bit>
 #include <cstring>
 #include <string>
 #include <string_view>
 
 #include <base/byte_reader.h>
+#include <telemetry/mcap/crc32.h>
 #include <telemetry/mcap/mcap_records.h>
 
 namespace pitchboard::telemetry {
@@ -42,12 +42,6 @@ inline void putMap(std::string& out, const McapMap& map) {
     putText(out, value);
   }
   setNumber(out, at, static_cast<std::uint32_t>(out.size() - at - 4));
-}
-
-/// The CRC-32 of bytes that go on after others with the checksum `crc`; 0 when they are the first.
-inline std::uint32_t extendedCrc(std::uint32_t crc, std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(crc, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 /// Opcode and room for the length; endRecord() fills it in.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap/mcap_chunk.h>
 
-#include <algorithm>
-
 #include "mcap_bytes.h"
 
 namespace pitchboard::telemetry {
@@ -17,24 +15,26 @@ void McapChunk::add(const McapChannel& channel) {
   m_channels.push_back(channel);
 }
 
-char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
-                            std::uint64_t publishTime, std::size_t size) {
-  const std::size_t at = m_body.size();
-  m_index.push_back({logTime, at, channel});
+void McapChunk::addHead(const McapMessage& head, std::size_t size) {
+  m_index.push_back({head.logTime, m_body.size(), head.channel});
   m_body += static_cast<char>(McapOp::Message);
   putNumber(m_body, static_cast<std::uint64_t>(messageHead + size));
-  putNumber(m_body, channel);
-  putNumber(m_body, sequence);
-  putNumber(m_body, logTime);
-  putNumber(m_body, publishTime);
+  putNumber(m_body, head.channel);
+  putNumber(m_body, head.sequence);
+  putNumber(m_body, head.logTime);
+  putNumber(m_body, head.publishTime);
+}
+
+char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
+                            std::uint64_t publishTime, std::size_t size) {
+  addHead({channel, sequence, logTime, publishTime, {}}, size);
   m_body.resize(m_body.size() + size);
-  return m_body.data() + at + recordHead + messageHead;
+  return m_body.data() + m_body.size() - size;
 }
 
 void McapChunk::add(const McapMessage& message) {
-  char* to = addMessage(message.channel, message.sequence, message.logTime, message.publishTime,
-                        message.data.size());
-  std::copy(message.data.begin(), message.data.end(), to);
+  addHead(message, message.data.size());
+  m_body += message.data;
 }
 
 void McapChunk::clear() {

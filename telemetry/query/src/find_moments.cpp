@@ -70,7 +70,7 @@ bool findIn(const SessionReader& session, SessionQuery& query, const Question& q
           });
           return true;
         },
-        goOn);
+        [&goOn](double) { return !goOn || goOn(); });
     if (!whole) return false;
   }
   return true;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,7 +12,7 @@
 #include <base/try.h>
 #include <telemetry/expression/expression_unit.h>
 #include <telemetry/series/group_order.h>
-#include <telemetry/series/losable.h>
+#include <telemetry/series/series_summary.h>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -21,6 +20,12 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint64_t rowsBetweenQuestions = 4096;
 constexpr std::string_view firstRobot = "first";  // of plots
+
+/// How much of the range lies before this time, 0 to 1.
+double shareOf(TimeRange range, double time) {
+  const double length = range.end - range.begin;
+  return length > 0.0 ? std::clamp((time - range.begin) / length, 0.0, 1.0) : 0.0;
+}
 
 /// `B1/BELIEF_ERROR` as it is written in an expression.
 std::string written(std::string_view name) {
@@ -43,31 +48,16 @@ std::optional<std::uint32_t> columnOf(const GroupInfo& group, std::string_view n
 
 /// The newest row of a group, as far as it is needed.
 struct Input {
-  struct Column {
-    Slot slot;
-    std::optional<Losable> losable;
-    double value = unknown;
-  };
-  std::vector<Column> columns;
-  std::map<std::uint32_t, std::size_t> places;  ///< of the group's columns among `columns`
+  std::vector<std::uint32_t> columns;
+  std::map<std::uint32_t, std::size_t> places{};  ///< of the group's columns among `columns`
+  std::vector<double> values{};                   ///< of the columns
   double time = -std::numeric_limits<double>::infinity();
   bool isDue = false;  ///< it has a row at the present time, whose curves are not evaluated yet
-  std::vector<std::size_t> curves;  ///< that have their samples at its rows
+  std::vector<std::size_t> curves{};  ///< that have their samples at its rows
 
-  void take(const RowView& row) {
-    time = row.time;
-    for (Column& column : columns) {
-      if (column.losable && column.losable->isLost(row)) {
-        column.value = unknown;
-      } else if (column.slot.type == ColumnType::Float64) {
-        column.value = row.values[column.slot.index];
-      } else {
-        const std::uint32_t word = row.words[column.slot.index];
-        column.value = column.slot.type == ColumnType::Int32
-                           ? static_cast<double>(std::bit_cast<std::int32_t>(word))
-                           : static_cast<double>(std::bit_cast<float>(word));
-      }
-    }
+  void take(double at, std::span<const double> row) {
+    time = at;
+    std::ranges::copy(row, values.begin());
   }
 };
 
@@ -95,7 +85,7 @@ struct SessionQuery::Impl {
       const QueryVariable& variable = what.variables[i];
       const Input& input = inputs.at(variable.group);
       const bool isOld = variable.group != own && time - input.time > SummaryPart::maxSilence;
-      what.values[i] = isOld ? unknown : input.columns[input.places.at(variable.column)].value;
+      what.values[i] = isOld ? unknown : input.values[input.places.at(variable.column)];
     }
     return what.expression.evaluate(time, what.values);
   }
@@ -149,12 +139,12 @@ std::set<std::string> columnsOfEach(std::span<const std::string> texts, Error& p
   return out;
 }
 
-Error noVariable(const SessionReader& session, std::string_view name) {
+Error noVariable(const QueryRows& rows, std::string_view name) {
   std::vector<std::string> names;
   const bool isOfEach = name.starts_with("each/");
-  for (const SessionGroup& group : session.groups()) {
-    for (const ColumnInfo& column : group.info.columns) {
-      names.push_back(isOfEach ? column.name : group.info.name + '.' + column.name);
+  for (const GroupInfo* group : rows.groups()) {
+    for (const ColumnInfo& column : group->columns) {
+      names.push_back(isOfEach ? column.name : group->name + '.' + column.name);
     }
   }
   const std::string wanted = written(name);
@@ -167,28 +157,28 @@ Error noVariable(const SessionReader& session, std::string_view name) {
 }
 
 /// Returns the variable that a name of an expression means. `each`: the robot that it stands for.
-Result<QueryVariable> variableOf(const SessionReader& session, const std::string& name,
+Result<QueryVariable> variableOf(const QueryRows& rows, const std::string& name,
                                  std::optional<GroupId> each) {
   const auto [group, column] = partsOf(name);
   std::vector<GroupId> groups;
   if (group == eachRobot) {
     groups = {*each};
   } else {
-    groups = TRY(session.groupsNamed(group));
+    groups = TRY(rows.groupsNamed(group));
   }
   for (const GroupId id : groups) {
-    if (const auto found = columnOf(session.groups()[id].info, column)) {
+    if (const auto found = columnOf(*rows.groups()[id], column)) {
       return QueryVariable{id, *found};
     }
   }
-  return tl::unexpected(noVariable(session, name));
+  return tl::unexpected(noVariable(rows, name));
 }
 
-Result<Resolved> resolved(const SessionReader& session, const std::string& text,
+Result<Resolved> resolved(const QueryRows& rows, const std::string& text,
                           std::optional<GroupId> each) {
   Resolved out{TRY(Expression::parse(text, eachRobot)), {}};
   for (const std::string& name : out.expression.variables()) {
-    out.variables.push_back(TRY(variableOf(session, name, each)));
+    out.variables.push_back(TRY(variableOf(rows, name, each)));
   }
   out.values.assign(out.variables.size(), unknown);
   return out;
@@ -200,11 +190,11 @@ bool isVariable(const std::string& text, const Expression& expression) {
   return text.find_first_of("+-*/^()<>=!&|?: ") == std::string::npos || text.front() == '{';
 }
 
-void describe(const SessionReader& session, const std::string& text, const Resolved& value,
+void describe(const QueryRows& rows, const std::string& text, const Resolved& value,
               QueryCurve& curve) {
   const auto infoOf = [&](std::size_t i) -> const ColumnInfo& {
     const QueryVariable& variable = value.variables[i];
-    return session.groups()[variable.group].info.columns[variable.column];
+    return rows.groups()[variable.group]->columns[variable.column];
   };
   if (isVariable(text, value.expression)) {
     const ColumnInfo& column = infoOf(0);
@@ -230,11 +220,11 @@ void describe(const SessionReader& session, const std::string& text, const Resol
 
 }  // namespace
 
-Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryTexts& texts) {
+Result<SessionQuery> SessionQuery::of(const QueryRows& rows, const QueryTexts& texts) {
   auto impl = std::make_unique<Impl>();
-  std::vector<bool> isChosen(session.groups().size(), texts.robots.empty());
+  std::vector<bool> isChosen(rows.groups().size(), texts.robots.empty());
   for (const std::string& robot : texts.robots) {
-    const std::vector<GroupId> groups = TRY(session.groupsNamed(robot));
+    const std::vector<GroupId> groups = TRY(rows.groupsNamed(robot));
     for (const GroupId group : groups) isChosen[group] = true;
   }
   for (std::size_t v = 0; v < texts.values.size(); ++v) {
@@ -244,9 +234,10 @@ Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryT
     if (!problem.message.empty()) return tl::unexpected(problem);
     std::vector<std::optional<GroupId>> robots;
     if (columns.empty()) robots.emplace_back();
-    for (const std::size_t g : listedOrder(session.groups(), &SessionGroup::info)) {
+    for (const std::size_t g : listedOrder(
+             rows.groups(), [](const GroupInfo* group) -> const GroupInfo& { return *group; })) {
       if (columns.empty() || !isChosen[g]) continue;
-      const GroupInfo& info = session.groups()[g].info;
+      const GroupInfo& info = *rows.groups()[g];
       if (std::ranges::all_of(columns, [&](const std::string& column) {
             return columnOf(info, column).has_value();
           })) {
@@ -255,24 +246,24 @@ Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryT
     }
     if (robots.empty()) {
       for (const std::string& column : columns) {
-        const bool isThere = std::ranges::any_of(session.groups(), [&](const SessionGroup& group) {
-          return isChosen[static_cast<std::size_t>(&group - session.groups().data())] &&
-                 columnOf(group.info, column).has_value();
-        });
-        if (!isThere) return tl::unexpected(noVariable(session, std::string("each/") + column));
+        bool isThere = false;
+        for (std::size_t g = 0; g < rows.groups().size(); ++g) {
+          isThere = isThere || (isChosen[g] && columnOf(*rows.groups()[g], column));
+        }
+        if (!isThere) return tl::unexpected(noVariable(rows, std::string("each/") + column));
       }
       return failure(ErrorCode::NotFound,
                      "No robot has all variables of \"" + texts.values[v] +
                          (texts.condition.empty() ? "\"." : "\" and of the condition."));
     }
     for (const std::optional<GroupId>& robot : robots) {
-      Impl::Part part{TRY(resolved(session, texts.values[v], robot)), {}};
-      if (!texts.condition.empty()) part.condition = TRY(resolved(session, texts.condition, robot));
+      Impl::Part part{TRY(resolved(rows, texts.values[v], robot)), {}};
+      if (!texts.condition.empty()) part.condition = TRY(resolved(rows, texts.condition, robot));
       QueryCurve curve;
       curve.value = v;
       curve.isOfEach = robot.has_value();
-      curve.robot = session.groups()[robot.value_or(part.value.variables.front().group)].info.name;
-      describe(session, texts.values[v], part.value, curve);
+      curve.robot = rows.groups()[robot.value_or(part.value.variables.front().group)]->name;
+      describe(rows, texts.values[v], part.value, curve);
       impl->curves.push_back(std::move(curve));
       impl->parts.push_back(std::move(part));
     }
@@ -285,12 +276,7 @@ Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryT
         impl->readsOtherGroups = impl->readsOtherGroups || variable.group != own;
         Input& input = impl->inputs[variable.group];
         if (!input.places.emplace(variable.column, input.columns.size()).second) continue;
-        const GroupInfo& info = session.groups()[variable.group].info;
-        Input::Column column{slotsOf(info.columns)[variable.column], {}};
-        for (Losable& losable : losableColumns(info)) {
-          if (losable.column == variable.column) column.losable = std::move(losable);
-        }
-        input.columns.push_back(std::move(column));
+        input.columns.push_back(variable.column);
       }
     };
     need(part.value);
@@ -300,18 +286,20 @@ Result<SessionQuery> SessionQuery::of(const SessionReader& session, const QueryT
   return SessionQuery(std::move(impl));
 }
 
-bool SessionQuery::run(const SessionReader& session, TimeRange range,
+bool SessionQuery::run(const QueryRows& rows, TimeRange range,
                        const std::function<bool(const QuerySample&)>& visit,
-                       const std::function<bool()>& goOn) {
+                       const std::function<bool(double)>& progress) {
   Impl& impl = *m_impl;
-  std::vector<GroupId> groups;
+  std::vector<WantedColumns> wanted;
+  std::vector<std::pair<GroupId, Input*>> inputs;
   for (auto& [id, input] : impl.inputs) {
-    groups.push_back(id);
+    wanted.push_back({id, input.columns});
+    inputs.emplace_back(id, &input);
     input.time = -std::numeric_limits<double>::infinity();
     input.isDue = false;
-    for (Input::Column& column : input.columns) column.value = unknown;
+    input.values.assign(input.columns.size(), unknown);
   }
-  if (groups.empty()) return true;
+  if (wanted.empty()) return true;
   bool goesOn = true;
   double now = -std::numeric_limits<double>::infinity();
   // The curves of a row: evaluated when all rows of its time are known, whatever their order.
@@ -330,22 +318,27 @@ bool SessionQuery::run(const SessionReader& session, TimeRange range,
     }
   };
   const auto evaluateAll = [&] {
-    for (auto& [id, input] : impl.inputs) {
-      if (input.isDue) evaluate(id, input);
+    for (auto& [id, input] : inputs) {
+      if (input->isDue) evaluate(id, *input);
     }
   };
   const double lead = impl.readsOtherGroups ? SummaryPart::maxSilence : 0.0;
-  std::uint64_t rows = 0;
-  session.rows({range.begin - lead, range.end}, groups, [&](GroupId id, const RowView& row) {
-    if (goOn && ++rows % rowsBetweenQuestions == 0 && !goOn()) goesOn = false;
-    if (row.time > now) evaluateAll();
-    now = std::max(now, row.time);
-    Input& input = impl.inputs.at(id);
-    if (input.isDue) evaluate(id, input);  // a second row of the same time
-    input.take(row);
-    input.isDue = !input.curves.empty();
-    return goesOn;
-  });
+  std::uint64_t count = 0;
+  rows.visit(
+      {range.begin - lead, range.end}, wanted,
+      [&](std::size_t index, double time, std::span<const double> values) {
+        if (progress && ++count % rowsBetweenQuestions == 0 && !progress(shareOf(range, time))) {
+          goesOn = false;
+        }
+        if (time > now) evaluateAll();
+        now = std::max(now, time);
+        Input& input = *inputs[index].second;
+        // A second row of the same time.
+        if (input.isDue) evaluate(inputs[index].first, input);
+        input.take(time, values);
+        input.isDue = !input.curves.empty();
+        return goesOn;
+      });
   if (goesOn) evaluateAll();
   return goesOn;
 }

@@ -9,16 +9,16 @@
 
 namespace pitchboard::telemetry {
 
-Result<std::vector<StretchCurve>> readStretch(const SessionReader& session, const QueryTexts& texts,
+Result<std::vector<StretchCurve>> readStretch(const QueryRows& rows, const QueryTexts& texts,
                                               std::span<const TimeRange> ranges,
-                                              const std::function<bool()>& goOn) {
-  SessionQuery query = TRY(SessionQuery::of(session, texts));
+                                              const std::function<bool(double)>& progress) {
+  SessionQuery query = TRY(SessionQuery::of(rows, texts));
   std::vector<StretchCurve> out;
   for (const QueryCurve& curve : query.curves()) out.push_back({curve, {}, {}});
   if (ranges.empty()) return out;
   auto range = ranges.begin();
   const bool whole = query.run(
-      session, {ranges.front().begin, ranges.back().end},
+      rows, {ranges.front().begin, ranges.back().end},
       [&](const QuerySample& sample) {
         while (range != ranges.end() && range->end < sample.time) ++range;
         const bool isInside = range != ranges.end() && range->begin <= sample.time;
@@ -28,7 +28,7 @@ Result<std::vector<StretchCurve>> readStretch(const SessionReader& session, cons
         curve.counted.push_back(counts);
         return true;
       },
-      goOn);
+      progress);
   if (!whole) return failure(ErrorCode::Conflict, "Stopped.");
   return out;
 }
@@ -44,9 +44,9 @@ bool fitsEvent(const SessionEvent& event, const std::string& text) {
 
 }  // namespace
 
-Result<std::vector<TimeRange>> rangesBetween(const SessionReader& session, const std::string& first,
+Result<std::vector<TimeRange>> rangesBetween(std::span<const SessionEvent> events,
+                                             std::optional<double> end, const std::string& first,
                                              const std::string& last) {
-  const std::vector<SessionEvent> events = session.events();
   for (const std::string& wanted : {first, last}) {
     if (std::ranges::any_of(events, [&](const auto& event) { return fitsEvent(event, wanted); })) {
       continue;
@@ -58,7 +58,6 @@ Result<std::vector<TimeRange>> rangesBetween(const SessionReader& session, const
     return failure(ErrorCode::NotFound, "There is no event \"" + wanted + "\"; there are: " +
                                             (known.empty() ? "none" : known) + ".");
   }
-  const auto all = session.range();
   std::vector<TimeRange> out;
   std::optional<double> begin;
   for (const SessionEvent& event : events) {
@@ -69,8 +68,14 @@ Result<std::vector<TimeRange>> rangesBetween(const SessionReader& session, const
     }
     if (!begin && fitsEvent(event, first)) begin = event.time;
   }
-  if (begin && all && all->end > *begin) out.push_back({*begin, all->end});
+  if (begin && end && *end > *begin) out.push_back({*begin, *end});
   return out;
+}
+
+Result<std::vector<TimeRange>> rangesBetween(const SessionReader& session, const std::string& first,
+                                             const std::string& last) {
+  const auto all = session.range();
+  return rangesBetween(session.events(), all ? std::optional(all->end) : std::nullopt, first, last);
 }
 
 }  // namespace pitchboard::telemetry

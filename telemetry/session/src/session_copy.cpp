@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_copy.h"
 
-#include <zlib.h>
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 
+#include <telemetry/mcap/crc32.h>
 #include <telemetry/series/column_merge.h>
 #include <telemetry/session/session_writer.h>
 
@@ -31,6 +33,10 @@ class Copy {
     if (auto done = writeHead(*out); !done) return tl::unexpected(done.error());
     SessionWriterOptions writing;
     writing.waitWhenFull = true;
+    // Chunks end by their size only, so that a copy has the same bytes every time, and few of them
+    // wait, so that their memory is used again.
+    writing.chunkInterval = std::chrono::hours(24);
+    writing.queueBytes = 4 * writing.chunkBytes;
     m_writer = SessionWriter::on(std::move(*out), m_session.file().contents().name,
                                  m_session.info(), writing);
     addChannels();
@@ -318,13 +324,11 @@ class Copy {
 }  // namespace
 
 void ChannelDigest::add(const McapMessage& message) {
-  const auto take = [this](const void* bytes, std::size_t size) {
-    crc = crc32_z(crc, static_cast<const Bytef*>(bytes), size);
-  };
-  take(&message.sequence, sizeof message.sequence);
-  take(&message.logTime, sizeof message.logTime);
-  take(&message.publishTime, sizeof message.publishTime);
-  take(message.data.data(), message.data.size());
+  std::array<char, sizeof message.sequence + 2 * sizeof message.logTime> head;
+  std::memcpy(head.data(), &message.sequence, 4);
+  std::memcpy(head.data() + 4, &message.logTime, 8);
+  std::memcpy(head.data() + 12, &message.publishTime, 8);
+  crc = extendedCrc(extendedCrc(crc, {head.data(), head.size()}), message.data);
   ++messages;
 }
 

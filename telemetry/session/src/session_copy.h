@@ -15,7 +15,7 @@ namespace pitchboard::telemetry {
 /// What went into a channel, or came out of it: must be the same.
 struct ChannelDigest {
   std::uint64_t messages = 0;
-  unsigned long crc = 0;
+  std::uint32_t crc = 0;
   void add(const McapMessage& message);
   bool operator==(const ChannelDigest&) const = default;
 };

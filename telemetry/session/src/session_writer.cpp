@@ -46,6 +46,13 @@ bool isContinued(const std::vector<ColumnInfo>& before, const std::vector<Column
                      [](const ColumnInfo& column) { return column.type == ColumnType::Float64; });
 }
 
+/// Texts that were received can be very many, and a newer channel describes them all.
+void forgetTexts(std::vector<ColumnInfo>& columns) {
+  for (ColumnInfo& column : columns) {
+    if (column.kind == ColumnKind::Text) column.labels.clear();
+  }
+}
+
 std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
   std::error_code problem;
   const auto folder = std::filesystem::absolute(path, problem).parent_path();
@@ -129,7 +136,7 @@ struct SessionWriter::Impl {
     std::size_t group = 0;              ///< with rows
     bool isSparse = false;
   };
-  std::map<std::uint16_t, Copied> copied;  ///< channels of another file
+  std::vector<Copied> copied;  ///< channels of another file, by their number in this one
   struct Stream {
     std::uint16_t channel = 0;
     std::uint32_t sequence = 0;
@@ -263,6 +270,7 @@ std::uint16_t SessionWriter::addChannel(const McapChannel& channel, const GroupI
   const std::lock_guard lock(impl.mutex);
   const std::uint16_t id = impl.addChannel(impl.current, channel);
   const auto stream = session::streamOf(channel);
+  if (impl.copied.size() <= id) impl.copied.resize(std::size_t{id} + 1);
   Impl::Copied& copied = impl.copied[id];
   copied.isSparse = stream == SessionStream::Events || stream == SessionStream::Log;
   if (rows == nullptr || id == 0) return id;
@@ -280,6 +288,7 @@ void SessionWriter::append(const McapMessage& message, const RowView* row) {
   Impl& impl = *m_impl;
   std::unique_lock lock(impl.mutex);
   if (!impl.hasSpace(lock, message.data.size() + 64)) return;
+  if (message.channel >= impl.copied.size()) return;
   const Impl::Copied& copied = impl.copied[message.channel];
   (copied.isSparse ? impl.sparse : impl.current).add(message);
   ++(copied.rows ? impl.state.rows : impl.state.messages);
@@ -496,10 +505,11 @@ bool SessionWriter::Impl::hasSpace(std::unique_lock<std::mutex>& lock, std::size
   if (!fits() && heldBytes > 0) {
     openWhere([](const Group& group) { return !group.held.empty(); });
   }
-  if (!fits() && options.waitWhenFull) {
-    if (!isEmpty()) closeCurrent();
+  while (options.waitWhenFull && !fits()) {
+    // While the writing thread has work, there is no reason for a chunk that is not full.
+    if (waiting == 0 && !isEmpty()) closeCurrent();
     wake.notify_one();
-    room.wait(lock, [&] { return fits() || stop || error; });
+    room.wait(lock);
     if (stop || error) return false;
   }
   if (fits()) return true;
@@ -552,6 +562,7 @@ void SessionWriter::Impl::openChannel(Group& group, double time) {
                              "cdr",
                              {{std::string(session::groupKey), session::groupToJson(of)}}});
   }
+  for (const std::size_t before : group.channels) forgetTexts(rowChannels[before].columns);
   group.takes = rowChannels.size();
   group.isDescribed = true;
   group.channels.push_back(rowChannels.size());

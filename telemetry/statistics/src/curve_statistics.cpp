@@ -292,6 +292,35 @@ CurveError errorAgainst(std::span<const Sample> curve, std::span<const Sample> o
   return out;
 }
 
+ValueMap valueMap(std::span<const Sample> curve, std::span<const Sample> x,
+                  std::span<const Sample> y, const MapGrid& grid) {
+  ValueMap out;
+  out.grid = grid;
+  const auto squares = static_cast<std::size_t>(std::max(0, grid.columns)) *
+                       static_cast<std::size_t>(std::max(0, grid.rows));
+  out.means.assign(squares, 0.0);
+  out.counts.assign(squares, 0);
+  HeldCurve heldX(x), heldY(y);
+  for (const Sample& sample : curve) {
+    const double column = std::floor((heldX.at(sample.time) - grid.left) / grid.cell);
+    const double row = std::floor((heldY.at(sample.time) - grid.bottom) / grid.cell);
+    if (!std::isfinite(sample.value) || !std::isfinite(column) || !std::isfinite(row)) continue;
+    if (column < 0 || row < 0 || column >= grid.columns || row >= grid.rows) {
+      ++out.outside;
+      continue;
+    }
+    const std::size_t square =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
+        static_cast<std::size_t>(column);
+    const auto count = static_cast<double>(++out.counts[square]);
+    out.means[square] += (sample.value - out.means[square]) / count;
+  }
+  for (std::size_t i = 0; i < squares; ++i) {
+    if (out.counts[i] == 0) out.means[i] = unknown;
+  }
+  return out;
+}
+
 std::optional<CurveCorrelation> correlationOf(std::span<const Sample> curve,
                                               std::span<const Sample> other, double maxDelay) {
   if (curve.size() < minPairs || other.size() < minPairs) return {};

@@ -23,6 +23,7 @@
 #include "../support/robot_keys.h"
 #include "drawings_menu.h"
 #include "field_background.h"
+#include "field_picture.h"
 #include "hover_text.h"
 #include "live_items.h"
 #include "made_frames.h"
@@ -333,6 +334,37 @@ class TestFieldLook : public QObject {
       before = covers;
     }
     QVERIFY(before <= 12.0);
+  }
+
+  /// Pictures and videos have no window round them that shows the scoreboard.
+  void picturesTellThePartOfTheGame() {
+    link::MatchFrame frame;
+    frame.origin = link::FrameOrigin::Live;
+    Game& game = frame.game.emplace();
+    game.teams[0].number = 12;
+    game.teams[1].number = 7;
+    game.teams[0].colour = TeamColor::Blue;
+    game.teams[1].colour = TeamColor::Red;
+    game.teams[0].score = 10;
+    game.state = PlayState::Playing;
+    game.half = 2;
+    game.phase = GamePhase::ExtraTime;
+    game.clock = static_cast<int>((3600 + 12 * 60 + 5) * game.tickRate);
+    game.restart.kind = SetPlay::DirectFreeKick;
+    game.restart.step = Restart::Step::Placing;
+    game.restart.team = 0;
+    const QFontMetricsF metrics(themeFont(TypeRole::Secondary, true));
+    const QString text = pictureCaption(frame, metrics, 2000);
+    for (const char* part : {"BLUE  10 : 0  RED", "72:05", "ET 2", "PLAYING", "direct free kick"}) {
+      QVERIFY2(text.contains(QLatin1String(part)), qPrintable(text));
+    }
+    game.phase = GamePhase::ShootOut;
+    QVERIFY(pictureCaption(frame, metrics, 2000).contains(QStringLiteral("PEN")));
+    // With less room the state is shorter, and what is left fits.
+    const double room = 0.8 * metrics.horizontalAdvance(text);
+    const QString shorter = pictureCaption(frame, metrics, room);
+    QVERIFY2(metrics.horizontalAdvance(shorter) <= room, qPrintable(shorter));
+    QVERIFY2(shorter.contains(QStringLiteral("10 : 0")) && shorter != text, qPrintable(shorter));
   }
 
   void aHeatMapIsDrawnUntilItIsTakenAway() {

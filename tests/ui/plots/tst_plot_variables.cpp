@@ -214,6 +214,30 @@ class TestPlotVariables : public QObject {
     }
   }
 
+  /// The value of another robot holds until the robot was silent for 10 s, as in questions about
+  /// sessions; then it is unknown, as what is computed with it.
+  void aSilentRobotIsUnknown() {
+    PlotSource source;
+    source.fill("B1", 30.0);
+    const auto other = source.addRobot("B2");
+    source.append(other, 5.0, 0, 40.0);
+    source.append(other, 25.0, 0, 50.0);
+    DerivedSeries series(expression(QStringLiteral("B1.DIST * 0 + B2.DIST")));
+    const auto find = [&source](const QString& name) {
+      return ColumnView{source.store->view(name.startsWith(QStringLiteral("B1")) ? 0 : 1), 1};
+    };
+    QTRY_VERIFY((series.update(find, 1, {0.0, 30.0}), !series.isWorking()));
+    const ColumnView view = series.view();
+    const auto at = [&view](double time) { return view.group->at(view.column, time)->value; };
+    QVERIFY(std::isnan(at(4.0)));
+    QCOMPARE(at(6.0), 40.0);
+    QCOMPARE(at(14.9), 40.0);
+    QVERIFY(std::isnan(at(15.1)));
+    QVERIFY(std::isnan(at(24.9)));
+    QCOMPARE(at(25.1), 50.0);
+    QCOMPARE(at(30.0), 50.0);
+  }
+
   /// A layout of "Robot 1" shows that robot after the referee has told its colour.
   void aRobotIsFoundByAFormerName() {
     Bench b(QStringList{});

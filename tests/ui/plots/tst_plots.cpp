@@ -9,6 +9,7 @@
 #include <simcore/world/action_codes.h>
 #include <telemetry/series/series_pages.h>
 #include <ui/base/theme.h>
+#include <ui/base/variable_names.h>
 #include <ui/plots/plots_dock.h>
 
 #include "chart_pane.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the window shares its room out, in windows of all sizes.
 
+#include <QAbstractItemView>
 #include <QAbstractScrollArea>
 #include <QDockWidget>
 #include <QGraphicsView>
@@ -261,6 +262,23 @@ class TestGeometry : public QObject {
     const QWidget* lane = page->panes()[1];
     QVERIFY(!lane->visibleRegion().isEmpty());
     QCOMPARE(lane->visibleRegion().boundingRect().height(), lane->height());
+  }
+
+  /// Of the log, in front in the first layout.
+  void theLogHasSomeRows_data() { aPlotAndItsLaneAreSeenAtFirst_data(); }
+  void theLogHasSomeRows() {
+    QFETCH(QSize, size);
+    Studio s(size);
+    s.play();
+    auto* dock = s.find<QDockWidget>("log");
+    dock->show();
+    dock->raise();
+    const auto* lines = dock->findChild<QAbstractItemView*>();
+    QVERIFY(lines && lines->model()->rowCount() > 0);
+    const auto rows = [lines] {
+      return lines->viewport()->height() / std::max(1, lines->sizeHintForRow(0));
+    };
+    QTRY_VERIFY2(rows() >= 5, qPrintable(QString::number(rows())));
   }
 
   void nothingGrowsTheWindow_data() {

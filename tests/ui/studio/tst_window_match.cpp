@@ -29,6 +29,7 @@
 #include <ui/window/scenario_files.h>
 
 #include "../support/menu_entry.h"
+#include "../support/own_match_number.h"
 #include "../support/robot_keys.h"
 #include "field_scene.h"
 #include "log_model.h"
@@ -142,9 +143,8 @@ class TestWindowMatch : public QObject {
 
   // None: blackboards are shared, so that the match takes a number, and no process is started.
   void whoDecidesAndTheNumberAreSeenAndSet() {
-    // Numbers that no match of another test, and none of a person, has.
-    int free = link::MatchNumber::most;
-    while (free > 20 && !link::MatchClaim::take(free)) --free;
+    const OwnMatchNumber own;
+    const int free = own.value();
     Studio s(m_settings.get());
     s.controller.open(link::loadScenario("one-robot").value(), true);
     QTRY_VERIFY(s.controller.frame());

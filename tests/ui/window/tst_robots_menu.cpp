@@ -8,12 +8,14 @@
 #include <QHelpEvent>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QSet>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QToolTip>
 #include <QUndoStack>
 #include <QtTest>
 
+#include <simcore/world/action_codes.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/robots/robots_dock.h>
@@ -102,6 +104,34 @@ class TestRobotsMenu : public QObject {
     QTRY_COMPARE(s.cards().size(), qsizetype(1));
     QVERIFY(s.trigger({"Cards", "Collapse all"}));
     QVERIFY(s.cards()[0]->isCollapsed());
+  }
+
+  /// What belongs together stands together, and nothing is missing.
+  void ordersAreGrouped() {
+    Studio s;
+    QTRY_COMPARE(s.cards().size(), qsizetype(6));
+    QVERIFY(s.trigger({"Select", "B2"}));
+    QVERIFY(s.entry({"Order"}));
+    QStringList groups{QString()};
+    QSet<QString> offered;
+    for (const QAction* action : s.entry({"Order"})->menu()->actions()) {
+      if (action->isSeparator()) {
+        groups << QString();
+      } else {
+        groups.back() += action->text() + QLatin1Char('|');
+        offered << action->text();
+      }
+    }
+    QCOMPARE(groups.size(), qsizetype(4));
+    QVERIFY2(groups[0].startsWith("Kick right|Kick left|"), qPrintable(groups[0]));
+    QVERIFY2(groups[1].startsWith("Walk forward, fast|Walk forward, slow|Walk backward, fast|"),
+             qPrintable(groups[1]));
+    QVERIFY2(groups[1].endsWith("Around the ball, left|Around the ball, right|"),
+             qPrintable(groups[1]));
+    for (const ActionInfo& action : knownActions) {
+      const auto label = QString::fromUtf8(action.label.data(), qsizetype(action.label.size()));
+      QVERIFY2(offered.contains(label.left(1).toUpper() + label.mid(1)), qPrintable(label));
+    }
   }
 
   // A right click selects the card, as everywhere; of several selected ones it keeps all.

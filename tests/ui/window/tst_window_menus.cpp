@@ -24,6 +24,7 @@
 #include <ui/sources/shown_moment.h>
 #include <ui/window/main_window.h>
 
+#include "../support/own_match_number.h"
 #include "studio_rig.h"
 
 namespace tst_window_menus {
@@ -124,8 +125,8 @@ class TestWindowMenus : public QObject {
   }
 
   void whoDecidesIsChosenByTheMouse() {
-    int free = link::MatchNumber::most;
-    while (free > 20 && !link::MatchClaim::take(free)) --free;
+    const OwnMatchNumber own;
+    const int free = own.value();
     Studio s;
     s.controller.setMatchNumber(free);
     QTRY_VERIFY(s.controller.frame());
@@ -162,8 +163,8 @@ class TestWindowMenus : public QObject {
     QTRY_VERIFY(s.controller.frame() && s.controller.frame()->matchNumber == free);
     QCOMPARE(s.ticked("matchNumber"), QStringList{QString::number(free)});
 
-    int typed = link::MatchNumber::most;
-    while (typed > 20 && !link::MatchClaim::take(typed)) --typed;
+    const OwnMatchNumber own;
+    const int typed = own.value();
     bool asked = false;
     QTimer answer;
     connect(&answer, &QTimer::timeout, &s.window, [&] {

@@ -16,21 +16,6 @@ namespace pitchboard::ui {
 
 namespace {
 
-QString captionOf(const link::MatchFrame& frame) {
-  link::MatchFrame playing = frame;
-  playing.paused = false;  // a picture in a file does not say that the match is paused
-  const ScoreboardState board = scoreboardOf(playing);
-  if (board.leftName.isEmpty()) return clockText(frame.snapshot.time);
-  QStringList parts{QStringLiteral("%1  %2 : %3  %4")
-                        .arg(board.leftName)
-                        .arg(board.left)
-                        .arg(board.right)
-                        .arg(board.rightName),
-                    board.clock, board.period, board.state, board.penalties};
-  parts.removeAll(QString());
-  return parts.join(QStringLiteral("    "));
-}
-
 void paintField(FieldScene& scene, QPainter& painter, QSize size) {
   const FieldStyle before = scene.style();
   const sim::FieldSpec& field = before.field;
@@ -57,12 +42,35 @@ void paintField(FieldScene& scene, QPainter& painter, QSize size) {
   painter.resetTransform();
   const int high = std::max(static_cast<int>(field.border * scale * 0.4), 11);
   const double top = (size.height() - (field.width + 2 * field.border) * scale) / 2;
+  const QFont font = fieldFont(high, true);
   drawHaloText(&painter, {size.width() / 2.0, top + field.border * scale / 2},
-               captionOf(*scene.frame()), fieldFont(high, true), theme().fieldLines,
-               theme().fieldBorder.darker(150));
+               pictureCaption(*scene.frame(), QFontMetricsF(font), size.width() - 2.0 * high), font,
+               theme().fieldLines, theme().fieldBorder.darker(150));
 }
 
 }  // namespace
+
+QString pictureCaption(const link::MatchFrame& frame, const QFontMetricsF& metrics, double width) {
+  link::MatchFrame playing = frame;
+  playing.paused = false;  // a picture in a file does not say that the match is paused
+  const ScoreboardState board = scoreboardOf(playing);
+  if (board.leftName.isEmpty()) return clockText(frame.snapshot.time);
+  const QString score = QStringLiteral("%1  %2 : %3  %4")
+                            .arg(board.leftName)
+                            .arg(board.left)
+                            .arg(board.right)
+                            .arg(board.rightName);
+  QString text;
+  for (const QString& penalties : {board.penalties, QString()}) {
+    for (const QString& state : QStringList(board.state) + board.shorter) {
+      QStringList parts{score, board.clock, board.period, state, penalties};
+      parts.removeAll(QString());
+      text = parts.join(QStringLiteral("    "));
+      if (metrics.horizontalAdvance(text) <= width) return text;
+    }
+  }
+  return text;
+}
 
 QSize pictureSize(const sim::FieldSpec& field, QSize within) {
   const QSizeF shape(field.length + 2 * field.border, field.width + 2 * field.border);

@@ -4,6 +4,7 @@
 // The field as a picture without window, for files and documents.
 
 #include <QByteArray>
+#include <QFontMetricsF>
 #include <QImage>
 
 #include <ui/sources/field_pictures.h>
@@ -11,6 +12,10 @@
 #include "field_scene.h"
 
 namespace pitchboard::ui {
+
+/// What is written over a picture: score, clock, part of the game, state and penalties; with little
+/// room, less of the state and no penalties. The clock alone if no team is known.
+QString pictureCaption(const link::MatchFrame& frame, const QFontMetricsF& metrics, double width);
 
 /// The largest picture within `size` pixels that the field with its border fills; both sides are
 /// even, as videos want them.

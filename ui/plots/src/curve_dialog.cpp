@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve_dialog.h"
 
-#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QCompleter>
@@ -18,6 +17,7 @@
 
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
+#include <ui/base/variable_names.h>
 
 #include "expression.h"
 #include "plot_feed.h"
@@ -36,58 +36,6 @@ NumberBox* numberBox(QWidget* parent) {
   box->setDecimals(6);
   box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   return box;
-}
-
-bool isOfName(QChar c) {
-  return c.isLetterOrNumber() || c == QLatin1Char('_') || c == QLatin1Char('.');
-}
-
-/// The name that is being written at the cursor.
-std::pair<int, int> nameAt(const QLineEdit& edit) {
-  const QString text = edit.text();
-  int begin = edit.cursorPosition();
-  const int end = begin;
-  while (begin > 0 && isOfName(text[begin - 1])) --begin;
-  return {begin, end};
-}
-
-/// As an expression writes it: `B1.NAME`, or in braces where a name has other characters.
-QString inExpression(const QString& name) {
-  const bool plain = std::all_of(name.begin(), name.end(),
-                                 [](QChar c) { return isOfName(c) || c == QLatin1Char('/'); }) &&
-                     name.count(QLatin1Char('/')) == 1;
-  return plain ? QString(name).replace(QLatin1Char('/'), QLatin1Char('.'))
-               : QStringLiteral("{%1}").arg(name);
-}
-
-/// Offers variables for the word at the cursor, not for the whole line.
-void completeNames(QLineEdit* edit, const QStringList& names) {
-  QStringList written;
-  for (const QString& name : names) written << inExpression(name);
-  auto* completer = new QCompleter(written, edit);
-  completer->setObjectName(QStringLiteral("expressionCompleter"));
-  completer->setFilterMode(Qt::MatchContains);
-  completer->setCaseSensitivity(Qt::CaseInsensitive);
-  completer->setMaxVisibleItems(15);
-  completer->setWidget(edit);
-  QObject::connect(edit, &QLineEdit::textEdited, completer, [edit, completer] {
-    constexpr int enough = 2;  // letters, before everything would be offered
-    const auto [begin, end] = nameAt(*edit);
-    const QString word = edit->text().mid(begin, end - begin);
-    if (word.size() < enough || word.front().isDigit()) {
-      completer->popup()->hide();
-      return;
-    }
-    completer->setCompletionPrefix(word);
-    completer->complete();
-  });
-  QObject::connect(completer, qOverload<const QString&>(&QCompleter::activated), edit,
-                   [edit](const QString& chosen) {
-                     const auto [begin, end] = nameAt(*edit);
-                     const QString text = edit->text();
-                     edit->setText(text.left(begin) + chosen + text.mid(end));
-                     edit->setCursorPosition(begin + int(chosen.size()));
-                   });
 }
 
 /// `each/NAME` of what two groups have at least, and `first/NAME` of all that robots have.

@@ -10,6 +10,7 @@
 
 #include <telemetry/expression/expression_unit.h>
 #include <telemetry/series/derived_curve.h>
+#include <telemetry/series/series_summary.h>
 #include <ui/base/workers.h>
 
 #include "expression.h"
@@ -22,7 +23,8 @@ using telemetry::Sample;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t rowsAtOnce = 1 << 16;
 constexpr std::size_t memoryBudget = std::size_t{256} << 20;  // bytes of one derived curve
-// An input without samples for longer is not waited for; its last value holds.
+// An input without samples for longer is not waited for; its last value holds until its group is
+// silent (isSilent()).
 constexpr double maxWait = 1.0;  // s
 constexpr std::size_t tailRows = 64;
 
@@ -67,6 +69,11 @@ Step makeStep(const CurveSpec& spec, const std::string& unit) {
       break;
   }
   return {};
+}
+
+/// As in questions about sessions (telemetry/query).
+bool isSilent(const Sample& newest, double time) {
+  return time - newest.time > telemetry::SummaryPart::maxSilence;
 }
 
 /// "1" for a code, which has none; empty if it is unknown.
@@ -142,9 +149,9 @@ void DerivedSeries::Work::run(const std::vector<ColumnView>& views, double until
                                   rowsAtOnce);
     if (times.empty()) break;
     std::vector<std::size_t> next(views.size(), 0);
+    std::vector<Sample> held(views.size(), {-infinity, std::nan("")});
     for (std::size_t i = 1; i < views.size(); ++i) {
-      const auto held = views[i].group->at(views[i].column, times.front().time);
-      values[i] = held ? held->value : std::nan("");
+      held[i] = views[i].group->at(views[i].column, times.front().time).value_or(held[i]);
       others[i].clear();
       views[i].group->samples(views[i].column,
                               {std::nextafter(times.front().time, infinity), times.back().time},
@@ -154,8 +161,9 @@ void DerivedSeries::Work::run(const std::vector<ColumnView>& views, double until
       values[0] = sample.value;
       for (std::size_t i = 1; i < views.size(); ++i) {
         while (next[i] < others[i].size() && others[i][next[i]].time <= sample.time) {
-          values[i] = others[i][next[i]++].value;
+          held[i] = others[i][next[i]++];
         }
+        values[i] = isSilent(held[i], sample.time) ? std::nan("") : held[i].value;
       }
       const double value = step(sample.time, values);
       store.append(group, {sample.time, {}, std::span(&value, 1)});
@@ -218,10 +226,10 @@ bool DerivedSeries::takeStretch(const std::vector<ColumnView>& views, telemetry:
     m_next.reset();
     m_work->behind = false;
   }
-  // A derivative needs the row before, an average the rows of its window.
-  const double lead = m_work->spec.kind == CurveKind::MovingAverage
-                          ? std::max(m_work->spec.parameter, maxWait)
-                          : maxWait;
+  // A derivative needs the row before, an average the rows of its window, and several inputs the
+  // last value of each.
+  double lead = views.size() > 1 ? telemetry::SummaryPart::maxSilence : maxWait;
+  if (m_work->spec.kind == CurveKind::MovingAverage) lead = std::max(lead, m_work->spec.parameter);
   const double span = shown.end - shown.begin;
   const auto has = [&](double more) {
     const telemetry::TimeRange range{shown.begin - lead - more, shown.end + more};

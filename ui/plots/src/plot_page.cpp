@@ -12,8 +12,8 @@
 #include <algorithm>
 #include <utility>
 
-#include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
+#include <ui/base/variable_names.h>
 #include <ui/sources/linked_time.h>
 
 #include "marks_panel.h"
@@ -399,21 +399,8 @@ void PlotPage::refresh() {
 }
 
 namespace {
-constexpr int edge = 14;        // a drop this close to an edge makes a plot of its own
-constexpr int mostNames = 200;  // of one drop
+constexpr int edge = 14;  // a drop this close to an edge makes a plot of its own
 }  // namespace
-
-QStringList draggedVariables(const QMimeData* data) {
-  if (data == nullptr || !data->hasFormat(variablesMimeType)) return {};
-  QStringList names;
-  for (const QString& line : QString::fromUtf8(data->data(variablesMimeType)).split('\n')) {
-    const QString name = line.trimmed();
-    if (name.indexOf(QLatin1Char('/')) > 0 && !names.contains(name) && names.size() < mostNames) {
-      names << name;
-    }
-  }
-  return names;
-}
 
 PlotPage::Target PlotPage::targetAt(const QPoint& position, qsizetype count) const {
   const QPoint at = m_stack->mapFrom(this, position);

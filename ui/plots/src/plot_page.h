@@ -11,7 +11,6 @@
 #include "plot_pane.h"
 
 class QLabel;
-class QMimeData;
 class QScrollArea;
 class QSplitter;
 
@@ -112,8 +111,5 @@ class PlotPage : public QWidget {
   bool m_boxTool = false;
   bool m_aligning = false;
 };
-
-/// The names in a drag of variables; empty for any other drag.
-QStringList draggedVariables(const QMimeData* data);
 
 }  // namespace pitchboard::ui

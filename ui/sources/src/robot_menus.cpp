@@ -5,6 +5,8 @@
 #include <QActionGroup>
 #include <QMenu>
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/scenario/scenario.h>
@@ -25,6 +27,14 @@ bool allOf(const MatchController& controller, const std::vector<RobotId>& ids, I
     return robot != nullptr && is(*robot);
   });
 }
+
+/// Codes of the actions in the menu: what is ordered most often comes first, and what belongs
+/// together stands together.
+constexpr std::array<int, 7> kickOrders{4, 5, 21, 22, 12, 13, 0};
+constexpr std::array<int, 10> walkOrders{1, 8, 17, 18, 6, 7, 2, 3, 9, 14};
+constexpr std::array<int, 6> otherOrders{11, 10, 15, 16, 19, 20};
+constexpr std::array<std::span<const int>, 3> orderGroups{kickOrders, walkOrders, otherOrders};
+static_assert(kickOrders.size() + walkOrders.size() + otherOrders.size() == knownActions.size());
 
 QAction* addChoice(QActionGroup* group, QMenu* menu, const QString& text, bool chosen) {
   QAction* action = menu->addAction(text);
@@ -54,18 +64,10 @@ void addOrderMenu(QMenu* menu, MatchController* controller, const std::vector<Ro
       for (const RobotId id : ids) controller->edits()->commandAction(id, action.code);
     });
   };
-  // What is ordered most often comes first.
-  const auto isFrequent = [](const ActionInfo& action) {
-    return action.kind == ActionKind::Kick || action.kind == ActionKind::Stop;
-  };
-  for (const ActionInfo& action : knownActions) {
-    if (isFrequent(action)) offer(action);
+  for (const auto& group : orderGroups) {
+    for (const int code : group) offer(knownActions[static_cast<std::size_t>(code)]);
+    orders->addSeparator();
   }
-  orders->addSeparator();
-  for (const ActionInfo& action : knownActions) {
-    if (!isFrequent(action)) offer(action);
-  }
-  orders->addSeparator();
   for (const bool on : {true, false}) {
     orders->addAction(on ? QStringLiteral("Search for the ball") : QStringLiteral("Stop searching"),
                       controller, [controller, ids, on] {

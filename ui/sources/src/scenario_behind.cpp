@@ -2,7 +2,6 @@
 #include <base/try.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/state_archive.h>
-#include <simcore/rules/game_start.h>
 #include <telemetry/session/session_reader.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
@@ -20,19 +19,7 @@ Result<sim::WorldState> nothingKnown() {
 Result<sim::WorldState> recordedState(const ReplayController& replay,
                                       const link::MatchFrame& frame) {
   const auto session = TRY(telemetry::SessionReader::open(replay.path().toStdString()));
-  auto moment = TRY(
-      link::momentFromSession(session, frame.snapshot.time, link::VariableCatalog::published()));
-  if (moment.state.tick != frame.snapshot.tick) return nothingKnown();
-  return std::move(moment.state);
-}
-
-/// What a file says of the game is its beginning.
-void takeGame(const Result<sim::WorldState>& state, link::Scenario& scenario) {
-  scenario.game.reset();
-  if (!state) return;
-  scenario.settings.referee = state->settings.referee;
-  scenario.settings.teams = state->settings.teams;
-  if (state->game) scenario.game = sim::gameStartOf(*state);
+  return link::stateOfFrame(session, frame);
 }
 
 }  // namespace
@@ -44,13 +31,13 @@ std::optional<link::Scenario> scenarioBehind(const ShownMoment& shown, const Mat
     link::Scenario scenario = match.scenario();
     const auto archive = match.memory()->archive();
     const auto state = frame && archive ? archive->restore(frame->snapshot.tick) : nothingKnown();
-    takeGame(state, scenario);
+    link::setGameOf(state, scenario);
     return scenario;
   }
   if (shown.source() != &replay || replay.attachedScenario().empty()) return {};
   auto read = link::scenarioFromJson(replay.attachedScenario(), "the session's scenario");
   if (!read) return {};
-  takeGame(frame ? recordedState(replay, *frame) : nothingKnown(), *read);
+  link::setGameOf(frame ? recordedState(replay, *frame) : nothingKnown(), *read);
   return std::move(*read);
 }
 

@@ -13,6 +13,7 @@
 #include <ui/rerun/rerun_dialog.h>
 #include <ui/rerun/rerun_dock.h>
 #include <ui/robots/robots_dock.h>
+#include <ui/statistics/statistics_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
 
@@ -70,6 +71,9 @@ QWidget* rerun(const StudioParts& s, QWidget* parent) {
                          parent] { showRerunDialog(asked, parent->window()); }},
                        parent);
 }
+QWidget* statistics(const StudioParts& s, QWidget* parent) {
+  return makeStatisticsDock({s.shown, s.replay, s.compared, s.selection, s.settings}, parent);
+}
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.shown, parent);
 }
@@ -92,6 +96,7 @@ std::span<const DockInfo> studioDocks() {
       {"log", "Log", Qt::BottomDockWidgetArea, true, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments, false, 300},
       {"rerun", "Rerun", Qt::BottomDockWidgetArea, false, rerun, false, 300},
+      {"statistics", "Statistics", Qt::BottomDockWidgetArea, false, statistics, false, 300},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;

@@ -34,6 +34,7 @@
 #include <ui/rerun/rerunner.h>
 #include <ui/session/export_dialog.h>
 #include <ui/session/session_files.h>
+#include <ui/share/network_share.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/attached_boards.h>
 #include <ui/sources/compared_session.h>
@@ -121,8 +122,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_sessions = new SessionFiles(m_replay, controller, m_shown, m_notices, this);
   m_bar = new TransportBar({controller, m_shown, m_replay, m_recording, m_live}, settings, this);
   addToolBar(m_bar);
-  m_status =
-      new StudioStatusBar({controller, m_shown, m_selection, m_replay, m_recording, m_live}, this);
+  m_share = new NetworkShare({controller, m_live, m_replay, m_shown}, this);
+  m_status = new StudioStatusBar(
+      {controller, m_shown, m_selection, m_replay, m_recording, m_live, m_share}, this);
   setStatusBar(m_status);
   m_files = new ScenarioFiles(controller, m_field, m_bar->scenarios(), this);
   m_tests = new SituationTests({m_shown, controller, m_replay, settings}, this);
@@ -221,6 +223,7 @@ void MainWindow::shutDown() {
   delete m_rerunner;
   delete m_bar;
   delete m_status;
+  delete m_share;
   delete m_notices;
   delete takeCentralWidget();
 
@@ -237,7 +240,7 @@ void MainWindow::shutDown() {
 StudioParts MainWindow::parts() {
   return {m_controller,      m_shown,  m_selection, m_field,    m_time,    m_settings, m_plots,
           m_timelineActions, m_replay, m_recording, m_live,     m_overlay, m_compared, m_future,
-          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work};
+          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work,   m_share};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -494,7 +497,8 @@ void MainWindow::connectNotices() {
                        refused = QStringLiteral("refused"), locked = QStringLiteral("locked"),
                        finished = QStringLiteral("finished"), compared = QStringLiteral("compared"),
                        test = QStringLiteral("test"), continued = QStringLiteral("continued"),
-                       replaced = QStringLiteral("replaced"), branch = QStringLiteral("branch");
+                       replaced = QStringLiteral("replaced"), branch = QStringLiteral("branch"),
+                       share = QStringLiteral("share");
   const auto noticeOf = [this](const QString& topic) {
     return [this, topic](const QString& sentence) { m_notices->show({topic}, sentence); };
   };
@@ -502,6 +506,10 @@ void MainWindow::connectNotices() {
     connect(m_recording, message, m_notices, noticeOf(recording));
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
+  connect(m_share, &NetworkShare::failed, m_notices, noticeOf(share));
+  connect(m_share, &NetworkShare::changed, m_notices, [this] {
+    if (m_share->isOn()) m_notices->settle(share);
+  });
   connect(m_recording, &SessionRecording::changed, m_notices, [this] {
     if (m_recording->isRecording()) m_notices->settle(recording);
   });

@@ -28,6 +28,7 @@
 #include <ui/rerun/rerun_dialog.h>
 #include <ui/robots/robots_dock.h>
 #include <ui/session/session_files.h>
+#include <ui/share/share_dialog.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
@@ -149,6 +150,12 @@ void StudioMenus::makeFile() {
   withIcon(menu->addAction(QStringLiteral("Export &picture…"), files,
                            &ScenarioFiles::askAndExportPicture),
            "document-export");
+  QAction* share = menu->addAction(QStringLiteral("S&hare on the network…"), &m_window,
+                                   [window = &m_window, parts = m_parts] {
+                                     showShareDialog(parts.share, parts.settings, window);
+                                   });
+  share->setObjectName(QStringLiteral("shareOnNetwork"));
+  share->setToolTip(QStringLiteral("Let Foxglove and other programs see what is shown here"));
   menu->addSeparator();
   withIcon(menu->addAction(QStringLiteral("&Quit"), &m_window, &QWidget::close), "application-exit",
            "quit");

@@ -16,6 +16,8 @@
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
+#include <ui/share/network_share.h>
+#include <ui/share/share_dialog.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>
@@ -62,6 +64,7 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
   m_world = addLabel("statusWorld", false);
   m_processes = addLabel("statusProcesses", false);
   m_recording = addLabel("statusRecording", false);
+  m_shared = addLabel("statusShared", false);
   m_cursor = addLabel("statusCursor", true);
   m_selected = addLabel("statusSelected", true);
   m_refresh = Beat::display().add(
@@ -77,6 +80,7 @@ StudioStatusBar::StudioStatusBar(const StatusContext& context, QWidget* parent)
     if (m_context.shown->isLookingBack()) m_refresh->want();
   });
   connect(context.selection, &RobotSelection::changed, this, &StudioStatusBar::refresh);
+  connect(context.share, &NetworkShare::changed, this, &StudioStatusBar::refresh);
   setContextMenuPolicy(Qt::CustomContextMenu);
   connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
     QMenu menu(this);
@@ -141,6 +145,7 @@ void StudioStatusBar::refresh() {
 void StudioStatusBar::showSource() {
   const FramePtr frame = m_context.shown->frame();
   showMemory();
+  showShared();
   if (m_context.shown->source() == m_context.live) {
     showLive(frame.get());
     if (frame)
@@ -217,6 +222,18 @@ void StudioStatusBar::showMemory() {
                                   .arg(momentText(held->end - held->begin, 0))
                                   .arg(static_cast<double>(rows->memoryBytes()) / 1e6, 0, 'f', 0)
                             : QString());
+}
+
+// Who may look is seen all the time, not only in the dialog.
+void StudioStatusBar::showShared() {
+  const NetworkShare& share = *m_context.share;
+  m_shared->setText(share.port() == 0 ? QString()
+                                      : QStringLiteral("Shared at %1, %2 connected")
+                                            .arg(addressOf(share))
+                                            .arg(share.status().clients));
+  m_shared->setToolTip(share.options().everyComputer
+                           ? QStringLiteral("Every computer in the network may look")
+                           : QStringLiteral("Only programs on this computer may look"));
 }
 
 void StudioStatusBar::showLive(const link::MatchFrame* frame) {

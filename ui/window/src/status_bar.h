@@ -19,6 +19,7 @@ namespace pitchboard::ui {
 
 class LiveController;
 class MatchController;
+class NetworkShare;
 class ReplayController;
 class RobotSelection;
 class SessionRecording;
@@ -32,6 +33,7 @@ struct StatusContext {
   ReplayController* replay = nullptr;
   SessionRecording* recording = nullptr;
   LiveController* live = nullptr;
+  NetworkShare* share = nullptr;
 };
 
 class StudioStatusBar : public QStatusBar {
@@ -55,6 +57,7 @@ class StudioStatusBar : public QStatusBar {
   QString paceText(const link::MatchFrame& shown) const;
   void showMatch(const link::MatchFrame& frame);
   void showMemory();
+  void showShared();
   void showLive(const link::MatchFrame* frame);
   void showSelected(const link::MatchFrame& frame);
   QLabel* addLabel(const char* name, bool atRight);
@@ -68,6 +71,7 @@ class StudioStatusBar : public QStatusBar {
   QLabel* m_world;
   QLabel* m_processes;
   QLabel* m_recording;
+  QLabel* m_shared;
   QLabel* m_cursor;
   QLabel* m_selected;
 };

@@ -17,6 +17,7 @@ class LinkedTime;
 class LiveController;
 class LiveOverlay;
 class MatchController;
+class NetworkShare;
 class PlotTarget;
 class ReplayController;
 class Rerunner;
@@ -48,6 +49,7 @@ struct StudioParts {
   Explorer* explorer = nullptr;         ///< what may follow the moment shown
   Rerunner* rerunner = nullptr;         ///< the recording through a process again
   RunningWork* work = nullptr;          ///< what closing the window would end
+  NetworkShare* share = nullptr;        ///< what other programs see
 };
 
 }  // namespace pitchboard::ui

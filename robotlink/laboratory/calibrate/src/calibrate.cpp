@@ -237,6 +237,8 @@ void reportLeftOut(std::span<const MotionFilter> filters, std::span<const Calibr
         cause = "fallen or getting up";
       } else if (!fit.ofLogs[f].states[i].known) {
         cause = "the pose is not known";
+      } else if (filters[f].pushed()[i]) {
+        cause = "moved by something that it did not see";
       } else if (filters[f].disturbed()[i]) {
         cause = "possibly touching the ball, another robot, a goal or a wall";
       }
@@ -254,7 +256,10 @@ void reportLeftOut(std::span<const MotionFilter> filters, std::span<const Calibr
     };
     note("Measurements left out as outliers", decisions.outliers);
     note("Resets of the IMU", decisions.imuResets);
-    note("Moves of the ball by hand", decisions.ballMoves);
+    const auto& moves = filters[f].ballMoves();
+    std::size_t ballMoves = decisions.ballMoves;
+    for (std::size_t i = 1; i < moves.size(); ++i) ballMoves += moves[i] && !moves[i - 1] ? 1 : 0;
+    note("Moves of the ball by others", ballMoves);
     note("Times the robot was carried or lost its position", decisions.jumps);
   }
 }

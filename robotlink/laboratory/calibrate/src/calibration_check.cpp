@@ -36,6 +36,7 @@ void checkLog(const CalibrationLog& log, std::size_t session, double holdOut,
               const MotionFit& motion, Calibration& out, double& sum, double& sumBase) {
   MotionFilter filter(log, out.base);
   filter.findDisturbed(motion.model, motion.delay);
+  filter.findJumps(motion.model, motion.delay);
   FilterDecisions decisions;
   std::vector<Innovation> innovations;
   std::vector<MotionState> states;

@@ -321,6 +321,17 @@ void fitTimes(std::span<const MotionFilter> filters, std::span<const Calibration
           "the robot did not get up from its back");
 }
 
+/// Whether another robot is seen so near that it may touch the ball that is kicked in row `first`.
+bool isContested(const CalibrationLog& log, const sim::RobotModel& base, std::size_t first) {
+  constexpr double from = -1.0, until = 2.5;  // s
+  constexpr double tooNear = 2.0;             // m
+  return std::ranges::any_of(log.robots, [&](const SeenRobotPercept& seen) {
+    if (seen.row >= log.rows.size()) return false;
+    const double later = log.rows[seen.row].time - log.rows[first].time;
+    return later > from && later < until && groundDistance(base, seen.seen.distance, 0.0) < tooNear;
+  });
+}
+
 }  // namespace
 
 void fitKicks(std::span<const MotionFilter> filters, std::span<const CalibrationLog> logs,
@@ -331,7 +342,7 @@ void fitKicks(std::span<const MotionFilter> filters, std::span<const Calibration
     rollsEvenly = rollsEvenly && logs[f].field.surface.keptPerFrame == 1.0;
     const auto& actions = filters[f].actions();
     for (std::size_t i = 0; i < actions.size(); ++i) {
-      if (!actions[i].kicks || !actions[i].began) continue;
+      if (!actions[i].kicks || !actions[i].began || isContested(logs[f], out.base, i)) continue;
       if (auto kick = kickAt(logs[f], filters[f], motion.ofLogs[f], motion, i)) {
         kicks.push_back(std::move(*kick));
       }

@@ -10,6 +10,7 @@
 #include <base/angles.h>
 
 #include "gait_step.h"
+#include "jump_test.h"
 #include "motion_parameters.h"
 
 namespace pitchboard::link {
@@ -22,15 +23,8 @@ constexpr double maxPause = 0.5;          // s without rows; then the filter sta
 constexpr double maxDelay = 0.52;         // s
 constexpr double gateSigmas = 6.0;        // of an outlier
 constexpr int maxOutliers = 8;            // hardly anything else between; then something was moved
-constexpr double ballRest = 4.0;          // s after it moved until the ball is used again
 constexpr double ballTouch = 0.45;        // m; a robot that is nearer may push it
-constexpr double ballPush = 0.55;         // m; a ball that is nearer may slow the robot down
-constexpr double robotPush = 0.6;         // m, between the centres
-constexpr double obstaclePush = 0.2;      // m, between its edge and a post, net or wall
-constexpr double pushTime = 1.0;          // s before and after
 constexpr double pushNoise = 0.03;        // m per 1/60 s, of a robot that may push something
-constexpr double doubtfulGait = 0.005;    // m per 1/60 s, noise of a gait that may be obstructed
-constexpr double pushRest = 2.0;          // s after it until its place is known again
 constexpr double kickRest = 20.0;         // s after a kick until the ball is at rest
 constexpr double startRest = 5.0;         // s after a start until its measurements count
 constexpr double startInterval = 2.0;     // s between two looks for where it is
@@ -47,12 +41,13 @@ double pauseOf(const CalibrationLog& log) {
 class Pass {
  public:
   Pass(const CalibrationLog& log, const std::vector<ExecutedAction>& actions,
-       const std::vector<bool>& disturbed, const std::vector<bool>& counted,
-       const std::array<Point, 4>& corners, const sim::RobotModel& model,
-       FilterDecisions& decisions, std::vector<Innovation>& out)
+       const std::vector<bool>& disturbed, const std::vector<bool>& ballMoves,
+       const std::vector<bool>& counted, const std::array<Point, 4>& corners,
+       const sim::RobotModel& model, FilterDecisions& decisions, std::vector<Innovation>& out)
       : m_log(log),
         m_actions(actions),
         m_disturbed(disturbed),
+        m_ballMoves(ballMoves),
         m_counted(counted),
         m_corners(corners),
         m_model(model),
@@ -61,6 +56,7 @@ class Pass {
 
   State state;
   double lastBelief = -1e9;
+  JumpTest* jumps = nullptr;  ///< if wanted
 
   void start(const MotionStart& from, double time) {
     state.placed = !from.covariance.isZero();
@@ -72,11 +68,15 @@ class Pass {
     state.mean[State::Yaw] = from.pose.yaw;
     state.covariance.topLeftCorner<3, 3>() = from.covariance;
     forgetImu();
+    if (jumps) jumps->forget();
     if (!state.known) m_gait = {};
     state.known = true;
     state.ballKnown = false;
   }
-  void forgetPose() { state.known = false; }
+  void forgetPose() {
+    state.known = false;
+    if (jumps) jumps->forget();
+  }
   void settle(const ExecutedAction& action) {
     m_gait.advance(m_model, action, 100.0);  // whatever it did in a gap, it has done for long
   }
@@ -102,6 +102,7 @@ class Pass {
       state.covariance.col(State::ImuError) = -state.covariance.col(State::Yaw);
       state.covariance(State::ImuError, State::ImuError) =
           state.covariance(State::Yaw, State::Yaw) + white * white;
+      if (jumps) jumps->setImu();
       return;
     }
     update(row, Sense::Imu, h, wrapToPi(*m_log.rows[row].imuYaw - expected), white * white);
@@ -168,6 +169,7 @@ class Pass {
   const CalibrationLog& m_log;
   const std::vector<ExecutedAction>& m_actions;
   const std::vector<bool>& m_disturbed;
+  const std::vector<bool>& m_ballMoves;
   const std::vector<bool>& m_counted;
   const std::array<Point, 4>& m_corners;
   const sim::RobotModel& m_model;
@@ -215,6 +217,7 @@ class Pass {
     p.row(State::Y) += dx * p.row(State::Yaw);
     p.col(State::X) -= dy * p.col(State::Yaw);
     p.col(State::Y) += dx * p.col(State::Yaw);
+    if (jumps) jumps->predict(dx, dy);
     const double frames = dt / frame;
     p(State::ImuError, State::ImuError) += m_model.noise.imuDrift * m_model.noise.imuDrift * frames;
     if (disturbed) {
@@ -242,12 +245,12 @@ class Pass {
   void measureBall(std::uint32_t row, const CalibrationRow::Seen& ball) {
     const double time = m_log.rows[row].time;
     if (m_actions[row].kicks) forgetBall(time, kickRest);
-    if (ball.distance < ballTouch) forgetBall(time, ballRest);
-    if (time < m_ballUsedFrom) return;
+    const double ground = groundDistance(m_model, ball.distance, m_log.field.ballRadius);
+    if (ground < ballTouch) forgetBall(time, ballRest);
+    if (m_ballMoves[row]) forgetBall(time, 0.0);
+    if (time < m_ballUsedFrom || m_ballMoves[row]) return;
     const double height = m_model.fromCamera ? m_model.cameraHeight - m_log.field.ballRadius : 0.0;
     if (!state.ballKnown) {
-      const double ground =
-          std::sqrt(std::max(0.01, ball.distance * ball.distance - height * height));
       placeBall(ground, ball);
       return;
     }
@@ -298,6 +301,7 @@ class Pass {
     p.bottomRightCorner<2, 2>() = own;
     state.ballKnown = true;
     m_rejectedBall = 0;
+    if (jumps) jumps->placeBall(jacobian);
   }
 
   /// Of a measurement that is far from what was expected.
@@ -355,24 +359,11 @@ class Pass {
     if (m_counted[row] && m_log.rows[row].time >= m_countedFrom)
       m_out.push_back({innovation, variance, row, sense});
     const State::Vector gain = ph / variance;
+    if (jumps) jumps->update(h, gain, innovation, variance);
     state.mean += gain * innovation;
     state.covariance.noalias() -= gain * ph.transpose();
   }
 };
-
-/// Whether a robot, of whose place (m, centred) `unsure` is not known, may be at a wall, or at a
-/// post or net of a goal.
-bool isAtObstacle(const sim::FieldSpec& field, double radius, const Point& place, double unsure) {
-  const double reach = radius + obstaclePush + std::min(unsure, 0.5);
-  // The field is symmetric about both axes.
-  const double x = std::abs(place.x), y = std::abs(place.y);
-  const double line = field.halfLength(), back = line + field.goalDepth;
-  const double post = field.goalWidth / 2.0;
-  if (x > line + field.border - reach || y > field.halfWidth() + field.border - reach) return true;
-  const double sideNet = std::hypot(x - std::clamp(x, line, back), y - post);
-  const double backNet = std::hypot(x - back, y - std::min(y, post));
-  return std::min(sideNet, backNet) < reach + field.goalPostRadius;
-}
 
 }  // namespace
 
@@ -398,61 +389,6 @@ MotionFilter::MotionFilter(const CalibrationLog& log, const sim::RobotModel& bas
   m_seesCorners = corners >= 50;
   for (const ExecutedAction& action : m_actions) m_executed.insert(action.code);
   findDisturbed(base, base.noise.visionDelay);
-}
-
-void MotionFilter::findDisturbed(const sim::RobotModel& known, double delay) {
-  const auto& rows = m_log.rows;
-  // A robot that stands pushes nothing.
-  const auto walks = [&](std::size_t row) {
-    const ExecutedAction& action = m_actions[row];
-    return action.kicks || sim::gaitSpeed(known, action.code, action.b).inMotion;
-  };
-  std::vector<bool> near(rows.size());
-  for (const std::uint32_t row : m_percepts) {
-    if (rows[row].ball && rows[row].ball->distance < ballPush && walks(row)) near[row] = true;
-  }
-  for (const SeenRobotPercept& seen : m_log.robots) {
-    if (seen.row < rows.size() && seen.seen.distance < robotPush) near[seen.row] = true;
-  }
-  // Where it is tells a run that trusts its senses more than its gait.
-  sim::RobotModel model = known;
-  model.noise.forward = model.noise.sideways = doubtfulGait;
-  m_disturbed.assign(rows.size(), false);
-  m_counted.assign(rows.size(), false);
-  FilterDecisions decisions;
-  std::vector<Innovation> unused;
-  std::vector<MotionState> states;
-  run(model, delay, decisions, unused, &states);
-  const double radius = known.radius > 0.0 ? known.radius : m_log.field.robotRadius;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const MotionState& state = states[i];
-    if (!state.known || !state.placed) continue;
-    const double unsure = std::sqrt(state.covariance(MotionState::X, MotionState::X) +
-                                    state.covariance(MotionState::Y, MotionState::Y));
-    const Point place{state.mean[MotionState::X], state.mean[MotionState::Y]};
-    if (walks(i) && isAtObstacle(m_log.field, radius, place, unsure)) near[i] = true;
-  }
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    if (!near[row]) continue;
-    const double time = rows[row].time;
-    for (std::size_t i = row; i-- > 0 && rows[i].time > time - pushTime && !m_disturbed[i];) {
-      m_disturbed[i] = true;
-    }
-    m_disturbed[row] = true;
-    for (std::size_t i = row + 1; i < rows.size() && rows[i].time < time + pushTime && !near[i];
-         ++i) {
-      m_disturbed[i] = true;
-    }
-  }
-  findCounted();
-}
-
-void MotionFilter::findCounted() {
-  double last = -1e9;
-  for (std::size_t i = 0; i < m_log.rows.size(); ++i) {
-    if (m_disturbed[i]) last = m_log.rows[i].time;
-    m_counted[i] = m_log.rows[i].time - last > pushRest;
-  }
 }
 
 bool MotionFilter::dependsOn(std::size_t parameter) const {
@@ -488,14 +424,17 @@ const MotionStart& MotionFilter::startAt(std::uint32_t row, const sim::RobotMode
 }
 
 void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
-                       std::vector<Innovation>& out, std::vector<MotionState>* states) const {
+                       std::vector<Innovation>& out, std::vector<MotionState>* states,
+                       JumpTest* jumps) const {
   out.clear();
   if (!decisions.recorded) {
     decisions.all.clear();
     decisions.outliers = decisions.imuResets = decisions.ballMoves = decisions.jumps = 0;
   }
   if (states) states->assign(m_log.rows.size(), {});
-  Pass pass(m_log, m_actions, m_disturbed, m_counted, m_corners, model, decisions, out);
+  Pass pass(m_log, m_actions, m_disturbed, m_ballMoves, m_counted, m_corners, model, decisions,
+            out);
+  pass.jumps = jumps;
   std::size_t percept = 0, sighting = 0;
   double lastLook = -1e9;
   for (std::uint32_t i = 0; i < m_log.rows.size(); ++i) {
@@ -538,6 +477,9 @@ void MotionFilter::run(const sim::RobotModel& model, double delay, FilterDecisio
       if (!m_seesCorners) pass.measureSighting(m_log.sightings[sighting]);
     }
     if (!m_seesCorners) pass.measureBelief(i);
+    if (jumps && pass.state.placed && pass.state.known) {
+      jumps->begin(i, row.time, pass.state.ballKnown);
+    }
     if (states) {
       pass.copyGait();
       (*states)[i] = pass.state;

@@ -9,6 +9,8 @@
 // Private to calibrate. One thread each.
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -22,6 +24,15 @@
 #include "motion_start.h"
 
 namespace pitchboard::link {
+
+inline constexpr double ballRest = 4.0;  ///< s after it moved until the ball is used again
+
+/// Along the ground, m, of something that is seen at a distance and whose middle has this height.
+inline double groundDistance(const sim::RobotModel& model, double distance, double height) {
+  if (!model.fromCamera) return distance;
+  const double drop = model.cameraHeight - height;
+  return std::sqrt(std::max(0.01, distance * distance - drop * drop));
+}
 
 /// Where a measurement came from.
 enum class Sense : std::uint8_t { Imu, BallDistance, BallBearing, Corner, Belief, TeamMate };
@@ -60,6 +71,8 @@ struct FilterDecisions {
   double gaitSpread = speedPrior;  ///< for looking for them, see startFromCorners()
 };
 
+class JumpTest;
+
 class MotionFilter {
  public:
   /// `log` must outlive it.
@@ -67,19 +80,29 @@ class MotionFilter {
   /// Finds disturbed() again, for a model that is nearer to the robot than the base. Ends what runs
   /// before it have decided.
   void findDisturbed(const sim::RobotModel& known, double delay);
+  /// Finds when it was moved by something that it did not see, and when the ball was moved. The
+  /// model has to be near to the robot. Adds to disturbed().
+  void findJumps(const sim::RobotModel& known, double delay);
 
   /// Measurements in order. `delay`: s between an image and its percepts. Makes the decisions if
-  /// they are not recorded, else follows them. `states`: one for each row, if wanted.
+  /// they are not recorded, else follows them. `states`: one for each row, if wanted. `jumps`:
+  /// looks for jumps, if wanted.
   void run(const sim::RobotModel& model, double delay, FilterDecisions& decisions,
-           std::vector<Innovation>& out, std::vector<MotionState>* states = nullptr) const;
+           std::vector<Innovation>& out, std::vector<MotionState>* states = nullptr,
+           JumpTest* jumps = nullptr) const;
 
   /// Whether a motion parameter changes anything here: speeds of actions that the robot never
   /// carried out do not.
   bool dependsOn(std::size_t parameter) const;
+  double timeOf(std::uint32_t row) const { return m_log.rows[row].time; }
   const std::vector<ExecutedAction>& actions() const { return m_actions; }
   /// Rows in which the robot may push the ball, another robot, a goal or a wall: its gait does not
   /// say how it moves.
   const std::vector<bool>& disturbed() const { return m_disturbed; }
+  /// Rows of these round a moment in which it was moved by something that it did not see.
+  const std::vector<bool>& pushed() const { return m_pushed; }
+  /// Rows in which the ball does not lie still.
+  const std::vector<bool>& ballMoves() const { return m_ballMoves; }
 
  private:
   void findCounted();
@@ -91,7 +114,7 @@ class MotionFilter {
   const CalibrationLog& m_log;
   std::vector<ExecutedAction> m_actions;
   std::set<int> m_executed;  // codes
-  std::vector<bool> m_disturbed;
+  std::vector<bool> m_disturbed, m_pushed, m_ballMoves;
   // Rows whose measurements count in the likelihood: not while it is disturbed, nor until it is
   // known again where it is. By the row that shows a percept, whatever its delay, so that
   // likelihoods of all delays are of the same measurements.

@@ -22,6 +22,12 @@ constexpr double skewedFrom = 0.12;   // of a logarithm's deviation
 constexpr double nearEnough = 0.2;    // of a posterior deviation, while the delay is looked for
 constexpr double closeEnough = 0.03;  // at last
 constexpr double knownSpeed = 0.05;   // of the logarithm, after the first search
+constexpr double blockLength = 10.0;  // s; innovations farther apart are not alike
+constexpr double minBlocks = 12.0;
+// Among others a robot is also touched too weakly to be noticed: by so much larger the deviations
+// were than the likelihood says (calibration_proof with `match`).
+constexpr double weakTouches = 1.25;
+constexpr double likelyNoise = 2.0;  // times the prior's median, of a gait that may be pushed
 
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
@@ -114,7 +120,17 @@ class Scoring {
   /// now.
   void startAnew(double gaitSpread) {
     decideAnew();
-    for (MotionFilter& one : m_filters) one.findDisturbed(modelAt(logs), delay);
+    sim::RobotModel known = modelAt(logs);
+    for (MotionFilter& one : m_filters) one.findDisturbed(known, delay);
+    if (!m_jumpsKnown) {
+      // So far they were taken for noise of the gait.
+      for (const std::size_t noise : {motionNoiseForward, motionNoiseSideways}) {
+        double& value = valueOf(known, motionParameters[noise]);
+        value = std::min(value, likelyNoise * std::exp(m_prior[noise]));
+      }
+    }
+    m_jumpsKnown = true;
+    for (MotionFilter& one : m_filters) one.findJumps(known, delay);
     for (FilterDecisions& one : m_decisions) {
       one.starts.clear();
       one.gaitSpread = gaitSpread;
@@ -154,6 +170,7 @@ class Scoring {
   };
   Derivatives derivativesAt(const MotionLogs& at) {
     Derivatives out;
+    m_blocks.clear();
     for (std::size_t f = 0; f < m_filters.size(); ++f) addDerivatives(f, at, out);
     for (std::size_t i = 0; i < at.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
@@ -162,6 +179,30 @@ class Scoring {
       out.value -= 0.5 * off * off * m_precision[k];
     }
     out.precision.diagonal() += m_precision;
+    return out;
+  }
+
+  /// By which factor the deviations of the posterior have to be larger than `here`, the derivatives
+  /// at the mode that were found last, says, because the innovations are alike over time or not as
+  /// the model has them: the covariance of the estimates from how much the gradients of stretches
+  /// of time differ (the sandwich of Huber, Proceedings of the Fifth Berkeley Symposium 1, 1967).
+  Vector excessOf(const Derivatives& here) const {
+    Vector out = Vector::Ones(count);
+    const auto blocks = static_cast<double>(m_blocks.size());
+    if (blocks < minBlocks) return out;
+    Matrix meat = Matrix::Zero(count, count);
+    Vector mean = Vector::Zero(count);
+    for (const Vector& one : m_blocks) mean += one / blocks;
+    for (const Vector& one : m_blocks) meat.noalias() += (one - mean) * (one - mean).transpose();
+    meat.diagonal() += m_precision;
+    const Matrix covariance = here.precision.ldlt().solve(Matrix::Identity(count, count));
+    const Matrix robust = covariance * meat * covariance;
+    // What a right model makes of so few stretches by chance is no excess.
+    const double byChance = 1.0 + std::sqrt(2.0 / blocks);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double ratio = robust(i, i) / covariance(i, i);
+      if (ratio > byChance) out[i] = std::sqrt(ratio);
+    }
     return out;
   }
 
@@ -236,9 +277,24 @@ class Scoring {
     }
     out.gradient -= m_values.transpose() * share;
     out.gradient += 0.5 * (m_variances.transpose() * excess);
+    addBlocks(f, share, excess);
     out.precision.noalias() += m_values.transpose() * m_values;
     out.precision.noalias() += 0.5 * (m_variances.transpose() * m_variances);
     out.value += logLikelihood(m_centre);
+  }
+
+  /// The gradients of stretches of time, from m_values and m_variances.
+  void addBlocks(std::size_t f, const Vector& share, const Vector& excess) {
+    double end = -1e18;
+    for (Eigen::Index i = 0; i < share.size(); ++i) {
+      const double time = m_filters[f].timeOf(m_centre[static_cast<std::size_t>(i)].row);
+      if (time >= end) {
+        end = time + blockLength;
+        m_blocks.emplace_back(Vector::Zero(count));
+      }
+      m_blocks.back() +=
+          0.5 * excess[i] * m_variances.row(i).transpose() - share[i] * m_values.row(i).transpose();
+    }
   }
 
   std::span<MotionFilter> m_filters;
@@ -246,8 +302,10 @@ class Scoring {
   MotionLogs m_prior;
   Eigen::Matrix<double, count, 1> m_precision;
   std::vector<FilterDecisions> m_decisions;
+  bool m_jumpsKnown = false;
   std::vector<Innovation> m_centre, m_scratch;
   Matrix m_values, m_variances;
+  std::vector<Vector> m_blocks;
 };
 
 /// Posterior over the delay: the program sees whole ticks only, so that every number of a cell of
@@ -433,6 +491,14 @@ std::array<GridPosterior, motionParameterCount> marginals(
   return out;
 }
 
+/// Whether something that it did not see moved it, or somebody else the ball.
+bool othersTookPart(std::span<const MotionFilter> filters) {
+  return std::ranges::any_of(filters, [](const MotionFilter& one) {
+    const auto isSet = [](bool row) { return row; };
+    return std::ranges::any_of(one.pushed(), isSet) || std::ranges::any_of(one.ballMoves(), isSet);
+  });
+}
+
 }  // namespace
 
 MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const CalibrationLog> logs,
@@ -467,6 +533,8 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
   fit.delayOfTicks = delay.ofTicks;
   fit.delayKnown = delay.share < 0.7;
   const auto atMode = scoring.derivativesAt(scoring.logs);
+  Vector excess = scoring.excessOf(atMode);
+  if (othersTookPart(filters)) excess *= weakTouches;
   fit.covariance = atMode.precision.ldlt().solve(Matrix::Identity(count, count));
   for (std::size_t i = 0; i < fit.information.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
@@ -481,6 +549,14 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
     noise.push_back(noisePosterior(scoring, i, atMode, fit.covariance));
   }
   fit.marginals = marginals(scoring.logs, fit.covariance, noise);
+  for (std::size_t i = 0; i < fit.marginals.size(); ++i) {
+    const double factor = excess[static_cast<Eigen::Index>(i)];
+    GridPosterior& one = fit.marginals[i];
+    one.low = one.median - factor * (one.median - one.low);
+    one.high = one.median + factor * (one.high - one.median);
+    fit.information[i] = 1.0 - factor * factor * (1.0 - fit.information[i]);
+  }
+  fit.covariance = excess.asDiagonal() * fit.covariance * excess.asDiagonal();
   for (std::size_t i = 0; i < fit.logs.size(); ++i) fit.logs[i] = fit.marginals[i].median;
   fit.model = scoring.modelAt(fit.logs);
   fit.model.noise.visionDelay = fit.delayKnown ? fit.delayPosterior.median : base.noise.visionDelay;

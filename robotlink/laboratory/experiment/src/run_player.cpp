@@ -219,6 +219,7 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   MatchOptions options;
   options.cognition = e.separateProcesses ? Cognition::Separate : Cognition::Inline;
   options.robotProgram = m_settings.robotProgram;
+  options.newBoards = true;
   options.process.keepsMemory = false;  // a run does not depend on another one
   const bool teamPrograms = e.conditions[run.condition].teamPrograms;
   options.speed = teamPrograms ? e.speed : MatchPlayer::unlimitedSpeed;

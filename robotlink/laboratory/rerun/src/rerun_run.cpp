@@ -351,9 +351,14 @@ Result<void> RerunRun::openBoard() {
     m_board.emplace(Blackboard::onHeap());
     return {};
   }
-  m_claim = TRY(m_options.match ? MatchClaim::take(*m_options.match) : MatchClaim::takeFree());
-  const int key = blackboardKey(m_robot.id, m_claim->number().keyBase());
-  if (SystemVSegments::info(key)) {
+  const auto keyOf = [this](MatchNumber number) {
+    return blackboardKey(m_robot.id, number.keyBase());
+  };
+  const auto isUnused = [&](MatchNumber number) { return !SystemVSegments::info(keyOf(number)); };
+  m_claim =
+      TRY(m_options.match ? MatchClaim::take(*m_options.match) : MatchClaim::takeFree(isUnused));
+  const int key = keyOf(m_claim->number());
+  if (!isUnused(m_claim->number())) {
     return failure(
         ErrorCode::Conflict,
         "There is already a blackboard with key " + std::to_string(key) +

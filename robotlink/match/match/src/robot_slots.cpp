@@ -400,8 +400,12 @@ bool RobotSlots::isSeparate(const RobotSlot& slot) const {
 
 Result<void> RobotSlots::identify() {
   if (m_claim) return {};
-  m_claim =
-      TRY(m_base.options.match ? MatchClaim::take(*m_base.options.match) : MatchClaim::takeFree());
+  std::function<bool(MatchNumber)> suits;
+  if (m_base.options.newBoards) {
+    suits = [](MatchNumber number) { return SystemVSegments::list(number.keyBase()).empty(); };
+  }
+  m_claim = TRY(m_base.options.match ? MatchClaim::take(*m_base.options.match)
+                                     : MatchClaim::takeFree(suits));
   m_base.options.process.setMatch(m_claim->number());
   return {};
 }

@@ -120,9 +120,10 @@ Result<MatchClaim> MatchClaim::take(int number) {
                  context);
 }
 
-Result<MatchClaim> MatchClaim::takeFree() {
+Result<MatchClaim> MatchClaim::takeFree(const std::function<bool(MatchNumber)>& suits) {
   std::string holder;
   for (int number = 0; number <= MatchNumber::most; ++number) {
+    if (suits && !suits(MatchNumber{number})) continue;
     auto lock = TRY(lockName("match-" + std::to_string(number), "match " + std::to_string(number)));
     if (lock.socket) return MatchClaim(MatchNumber{number}, std::move(lock.socket), holder);
     if (number == 0) holder = lock.holder.empty() ? "another program" : lock.holder;

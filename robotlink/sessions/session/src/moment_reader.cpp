@@ -9,6 +9,7 @@
 #include <robotlink/live/board_columns.h>
 #include <robotlink/session/session_checkpoint.h>
 #include <robotlink/session/state_archive.h>
+#include <simcore/rules/game_start.h>
 
 namespace pitchboard::link {
 namespace {
@@ -130,6 +131,23 @@ Result<Moment> momentFromSession(const telemetry::SessionReader& session, double
         {*robot, behaviourOf(group), boardWords(group, rows[i].view(), catalog)});
   }
   return moment;
+}
+
+Result<sim::WorldState> stateOfFrame(const telemetry::SessionReader& session,
+                                     const MatchFrame& frame) {
+  auto moment = TRY(momentFromSession(session, frame.snapshot.time, VariableCatalog::published()));
+  if (moment.state.tick != frame.snapshot.tick) {
+    return failure(ErrorCode::NotFound, "the recording does not have the state of this moment");
+  }
+  return std::move(moment.state);
+}
+
+void setGameOf(const Result<sim::WorldState>& state, Scenario& scenario) {
+  scenario.game.reset();
+  if (!state) return;
+  scenario.settings.referee = state->settings.referee;
+  scenario.settings.teams = state->settings.teams;
+  if (state->game) scenario.game = sim::gameStartOf(*state);
 }
 
 }  // namespace pitchboard::link

@@ -35,6 +35,9 @@ class McapChunk {
     std::uint64_t offset;
     std::uint16_t channel;
   };
+  /// Everything of a message but its data, which have `size` bytes.
+  void addHead(const McapMessage& head, std::size_t size);
+
   std::string m_body;
   std::vector<Entry> m_index;
   std::vector<McapSchema> m_schemas;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Evaluates expressions (expression.h) over the rows of a session, for one or all of its robots,
-// with the meaning that plots give them: at the times of the first variable, with the last values
-// of the others, and unknown where a value is unknown or its group was silent for more than 10 s.
-// Only the groups that the expressions need are read, and no row is kept. One thread at a time.
-// Times are seconds of the session.
+// Evaluates expressions (expression.h) over the rows of a session or of memory, for one or all of
+// its robots, with the meaning that plots give them: at the times of the first variable, with the
+// last values of the others, and unknown where a value is unknown or its group was silent for more
+// than 10 s. Only the groups that the expressions need are read, and no row is kept. One thread at
+// a time. Times are seconds of the session.
 
 #include <cstdint>
 #include <functional>
@@ -17,7 +17,7 @@
 
 #include <base/result.h>
 #include <telemetry/expression/expression.h>
-#include <telemetry/session/session_reader.h>
+#include <telemetry/query/query_rows.h>
 
 namespace pitchboard::telemetry {
 
@@ -59,7 +59,7 @@ class SessionQuery {
   /// Resolves the names. A robot that has some of the variables of `each` only has no curve. Fails
   /// with ParseError, and with NotFound if the session has no such robot or variable; the error
   /// names a similar one.
-  static Result<SessionQuery> of(const SessionReader& session, const QueryTexts& texts);
+  static Result<SessionQuery> of(const QueryRows& rows, const QueryTexts& texts);
   SessionQuery(SessionQuery&&) noexcept;
   SessionQuery& operator=(SessionQuery&&) noexcept;
   ~SessionQuery();
@@ -71,10 +71,11 @@ class SessionQuery {
   std::vector<std::pair<std::string, QueryVariable>> variables(std::size_t curve) const;
 
   /// Visits the samples of all curves in a closed range, in order of time, until `visit` returns
-  /// false. `goOn` is asked from time to time. Returns false if one of them stopped it.
-  bool run(const SessionReader& session, TimeRange range,
+  /// false. `progress` is called from time to time with the share that is done (0 to 1). Returns
+  /// false if one of them stopped it. `rows` has the groups of of().
+  bool run(const QueryRows& rows, TimeRange range,
            const std::function<bool(const QuerySample&)>& visit,
-           const std::function<bool()>& goOn = {});
+           const std::function<bool(double)>& progress = {});
 
  private:
   struct Impl;

@@ -57,14 +57,28 @@ class SummaryBuilder {
   std::optional<SummaryPart> closeBucket();
 
  private:
-  struct Extremes {
-    float min, max, last;
+  /// Columns that stand behind each other in the row, too.
+  struct Run {
+    bool isWord = false;
+    std::size_t column = 0, index = 0, count = 0;
   };
+  void read(const RowView& row);
+  void beginBucket();
   SummaryPart take();
 
-  std::vector<Slot> m_slots;
-  std::vector<Losable> m_losable;
-  std::vector<Extremes> m_now;
+  std::vector<Run> m_runs;
+  std::vector<std::uint32_t> m_intMask;  // of each column: all bits if its words are Int32
+  /// A column is unknown in rows with this word, or this value, at `index`.
+  template <class T>
+  struct Hole {
+    std::uint32_t index = 0;
+    std::uint32_t column = 0;
+    T when{};
+  };
+  std::vector<Hole<std::uint32_t>> m_wordHoles;
+  std::vector<Hole<double>> m_valueHoles;
+  std::vector<float> m_min, m_max,
+      m_last;  // of the bucket, by column; min above max: no number yet
   std::uint32_t m_rows = 0;
   double m_begin = 0.0, m_end = 0.0;
   SummaryPart m_part;

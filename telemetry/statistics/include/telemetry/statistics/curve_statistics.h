@@ -105,4 +105,22 @@ struct CurveCorrelation {
 std::optional<CurveCorrelation> correlationOf(std::span<const Sample> curve,
                                               std::span<const Sample> other, double maxDelay);
 
+/// Equal squares of a plane, from the lower left corner; all lengths in m.
+struct MapGrid {
+  double left = 0.0, bottom = 0.0;
+  double cell = 0.25;  ///< side of a square
+  int columns = 0, rows = 0;
+};
+/// A value by place.
+struct ValueMap {
+  MapGrid grid{};
+  std::vector<double> means{};          ///< rows from below, squares from left to right; or NaN
+  std::vector<std::uint64_t> counts{};  ///< known samples of each square
+  std::uint64_t outside = 0;            ///< known samples at places that are not on the map
+};
+/// Averages the known samples of `curve` in the square in which `x` and `y` (m) were then: their
+/// last value before or at that time, at most 10 s old. Samples at unknown places do not count.
+ValueMap valueMap(std::span<const Sample> curve, std::span<const Sample> x,
+                  std::span<const Sample> y, const MapGrid& grid);
+
 }  // namespace pitchboard::telemetry

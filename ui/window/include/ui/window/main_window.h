@@ -35,6 +35,7 @@ class LinkedTime;
 class LiveController;
 class LiveOverlay;
 class MatchController;
+class NetworkShare;
 class NoticeBar;
 class PlotTarget;
 class PlotsDock;
@@ -156,6 +157,7 @@ class MainWindow : public QMainWindow {
   SituationTests* m_tests;
   Explorer* m_explorer;
   Rerunner* m_rerunner;
+  NetworkShare* m_share;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;

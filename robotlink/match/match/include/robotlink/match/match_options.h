@@ -26,8 +26,11 @@ enum class RobotsPace {
 
 struct MatchOptions {
   Cognition cognition = Cognition::Inline;
-  bool systemV = false;         ///< with Inline: System V blackboards, for watching
-  std::optional<int> match;     ///< number of the match; nothing: the next free number
+  bool systemV = false;      ///< with Inline: System V blackboards, for watching
+  std::optional<int> match;  ///< number of the match; nothing: the next free number
+  /// The next free number is one that has no blackboards yet. Otherwise programs that were started
+  /// before the match keep theirs, with what stands on them.
+  bool newBoards = false;
   std::optional<int> keyBase;   ///< key = this + 100 × robot number; nothing: from the match
   std::string robotProgram;     ///< path of pitchboard-robot; needed for separate processes
   ProcessOptions process;       ///< for the processes; the ports are the match's

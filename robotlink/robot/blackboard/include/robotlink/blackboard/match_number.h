@@ -5,6 +5,7 @@
 // follow, so that two matches never share a blackboard or receive each other's messages. Match 0
 // has the published keys and ports. Plain values; any thread.
 
+#include <functional>
 #include <string>
 
 #include <base/result.h>
@@ -42,8 +43,8 @@ class MatchClaim {
  public:
   /// Fails with Conflict if this or another program already plays it.
   static Result<MatchClaim> take(int number);
-  /// Takes the smallest free number.
-  static Result<MatchClaim> takeFree();
+  /// Takes the smallest free number that suits the caller; without `suits` each of them does.
+  static Result<MatchClaim> takeFree(const std::function<bool(MatchNumber)>& suits = {});
 
   MatchNumber number() const { return m_number; }
   /// Returns who plays match 0 if takeFree() took another number: "pitchboard, process 123".

@@ -10,7 +10,9 @@
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
+#include <robotlink/frame/match_frame.h>
 #include <robotlink/match/moment.h>
+#include <robotlink/scenario/scenario.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_reader.h>
 
@@ -36,5 +38,14 @@ Result<Moment> momentFromMemory(const StateArchive& archive, const telemetry::Se
 /// no checkpoint there, as in a live recording or another program's file.
 Result<Moment> momentFromSession(const telemetry::SessionReader& session, double seconds,
                                  const VariableCatalog& catalog);
+
+/// Returns the exact state of the moment that a frame of a session shows. Fails with NotFound if
+/// the file has no checkpoint there.
+Result<sim::WorldState> stateOfFrame(const telemetry::SessionReader& session,
+                                     const MatchFrame& frame);
+
+/// Makes the game and the rules of a scenario those of a state; what a scenario says of its game is
+/// the beginning. If the state is unknown, the scenario has no game any more.
+void setGameOf(const Result<sim::WorldState>& state, Scenario& scenario);
 
 }  // namespace pitchboard::link

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+// Chooses the robots that a variable without a robot stands for: all, those that are selected on
+// the field, or some by name. UI thread only.
+
+#include <QStringList>
+#include <QToolButton>
+#include <string>
+#include <vector>
+
+namespace pitchboard::ui {
+
+class RobotSelection;
+class ShownMoment;
+
+class RobotsButton : public QToolButton {
+  Q_OBJECT
+ public:
+  /// Both must outlive it.
+  RobotsButton(ShownMoment* shown, RobotSelection* selection, QWidget* parent);
+
+  /// Returns the names of the groups; empty: all.
+  std::vector<std::string> robots() const;
+
+ signals:
+  void changed();
+
+ private:
+  void fill();
+  void choose(bool followsSelection, const QStringList& names);
+
+  ShownMoment* m_shown;
+  RobotSelection* m_selection;
+  bool m_followsSelection = false;
+  QStringList m_names;  // chosen by name; empty: all
+};
+
+}  // namespace pitchboard::ui
