@@ -121,14 +121,10 @@ class SessionPlaying {
   }
   void tell(FoxgloveServer& server, const link::ServedSession& served,
             const FoxglovePlaybackControl& asked) const {
-    using Status = FoxglovePlaybackState::Status;
-    server.setPlayback({.status = m_plays                               ? Status::Playing
-                                  : served.time() >= served.range().end ? Status::Ended
-                                                                        : Status::Paused,
-                        .time = m_session.logTime(served.time()),
-                        .speed = m_speed,
-                        .didSeek = asked.seek.has_value(),
-                        .requestId = asked.requestId});
+    FoxglovePlaybackState state = served.playback(m_plays, m_speed);
+    state.didSeek = asked.seek.has_value();
+    state.requestId = asked.requestId;
+    server.setPlayback(state);
   }
 
   const telemetry::SessionReader& m_session;
@@ -180,10 +176,7 @@ Result<int> serveMatch(const ServeOptions& options) {
   const auto info = link::sessionInfo(match, programName, telemetry::LiveClock().now());
   const auto server = TRY(serverOptions(options, info.title));
   const auto running = TRY(FoxgloveServer::start(server));
-  const auto served = std::make_shared<link::ServedMatch>(
-      *running, [start = nanosecondsOf(info.start)](double seconds) {
-        return start + static_cast<std::uint64_t>(std::llround(seconds * 1e9));
-      });
+  const auto served = std::make_shared<link::ServedMatch>(*running, link::logTimesFrom(info.start));
   const double tickRate = match.simulation().state().settings.tickRate;
   const int everyNth = std::max(1, static_cast<int>(std::lround(tickRate / options.rate)));
   link::MatchPlayer player(std::move(match));
@@ -202,10 +195,8 @@ Result<int> serveLive(const ServeOptions& options) {
   const link::LiveDetails details = TRY(whenListening(watch));
   const auto server = TRY(serverOptions(options, "Pitchboard Live"));
   const auto running = TRY(FoxgloveServer::start(server));
-  const auto served = std::make_shared<link::ServedMatch>(
-      *running, [start = nanosecondsOf(watch.began())](double seconds) {
-        return start + static_cast<std::uint64_t>(std::llround(seconds * 1e9));
-      });
+  const auto served =
+      std::make_shared<link::ServedMatch>(*running, link::logTimesFrom(watch.began()));
   const auto serving = std::make_shared<link::LiveServing>(served);
   watch.observe(serving);
   reportListening(live, details.network);

@@ -18,6 +18,7 @@
 #include <optional>
 
 #include <telemetry/foxglove/foxglove_client.h>
+#include <ui/base/in_place_message.h>
 #include <ui/share/network_share.h>
 #include <ui/share/share_dialog.h>
 #include <ui/sources/live_controller.h>
@@ -148,7 +149,7 @@ class TestShare : public QObject {
     QVERIFY(other.listen(QHostAddress::LocalHost));
     port->setValue(other.serverPort());
     QTest::mouseClick(change, Qt::LeftButton);
-    auto* problem = dialog->findChild<QLabel*>(QStringLiteral("shareProblem"));
+    auto* problem = dialog->findChild<InPlaceMessage*>(QStringLiteral("shareProblem"));
     QVERIFY(problem->isVisible());
     QVERIFY2(problem->text().startsWith(QStringLiteral("Cannot share: ")),
              qPrintable(problem->text()));

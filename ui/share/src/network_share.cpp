@@ -22,17 +22,6 @@ namespace {
 constexpr double rate = 20.0;  // Hz: pictures of the field, and rows of a match
 constexpr telemetry::Address everyAddress{0};
 
-std::uint64_t nanosecondsOf(telemetry::WallTime time) {
-  return static_cast<std::uint64_t>(time.time_since_epoch().count());
-}
-
-/// Seconds of the source as ns since 1970.
-std::function<std::uint64_t(double)> timesFrom(telemetry::WallTime start) {
-  return [begin = nanosecondsOf(start)](double seconds) {
-    return begin + static_cast<std::uint64_t>(std::llround(seconds * 1e9));
-  };
-}
-
 /// Shows to a server what an observer sees; the server lives as long.
 std::shared_ptr<link::ServedMatch> servedBy(
     const std::shared_ptr<telemetry::FoxgloveServer>& server, telemetry::WallTime start) {
@@ -40,7 +29,7 @@ std::shared_ptr<link::ServedMatch> servedBy(
     std::shared_ptr<telemetry::FoxgloveServer> server;
     link::ServedMatch served;
   };
-  const auto both = std::make_shared<Both>(Both{server, {*server, timesFrom(start)}});
+  const auto both = std::make_shared<Both>(Both{server, {*server, link::logTimesFrom(start)}});
   return {both, &both->served};
 }
 
@@ -120,7 +109,7 @@ telemetry::FoxgloveServerOptions NetworkShare::serverOptions(const QString& name
   if (m_options.everyComputer) options.bind = everyAddress;
   options.port = static_cast<std::uint16_t>(m_options.port);
   options.name = name.toStdString();
-  options.sessionId = std::to_string(nanosecondsOf(telemetry::LiveClock().now()));
+  options.sessionId = std::to_string(telemetry::LiveClock().now().time_since_epoch().count());
   return options;
 }
 

@@ -15,7 +15,7 @@
 #include <QVBoxLayout>
 
 #include <ui/base/dialog_size.h>
-#include <ui/base/theme.h>
+#include <ui/base/in_place_message.h>
 #include <ui/share/network_share.h>
 
 namespace pitchboard::ui {
@@ -71,13 +71,9 @@ ShareDialog::ShareDialog(NetworkShare* share, QSettings* settings, QWidget* pare
   m_state->setObjectName(QStringLiteral("shareState"));
   m_state->setWordWrap(true);
   m_state->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  m_problem = new QLabel(this);
+  m_problem = new InPlaceMessage(this);
   m_problem->setObjectName(QStringLiteral("shareProblem"));
-  m_problem->setWordWrap(true);
-  m_problem->hide();
-  QPalette red = m_problem->palette();
-  red.setColor(QPalette::WindowText, theme().errorText);
-  m_problem->setPalette(red);
+  m_problem->clear();
 
   auto* form = new QFormLayout;
   form->addRow(QStringLiteral("Port"), m_port);
@@ -103,8 +99,7 @@ ShareDialog::ShareDialog(NetworkShare* share, QSettings* settings, QWidget* pare
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(share, &NetworkShare::changed, this, &ShareDialog::refresh);
   connect(share, &NetworkShare::failed, this, [this](const QString& sentence) {
-    m_problem->setText(sentence);
-    m_problem->show();
+    m_problem->showMessage(InPlaceMessage::Tone::Error, sentence);
     refresh();
   });
   auto* timer = new QTimer(this);
@@ -115,7 +110,7 @@ ShareDialog::ShareDialog(NetworkShare* share, QSettings* settings, QWidget* pare
 }
 
 void ShareDialog::change() {
-  m_problem->hide();
+  m_problem->clear();
   if (m_share->isOn()) {
     m_share->stop();
     return;

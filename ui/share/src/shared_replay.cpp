@@ -41,12 +41,7 @@ void SharedReplay::follow(const Moment& moment,
 }
 
 void SharedReplay::tell(const Moment& moment, bool didSeek, const std::string& requestId) {
-  using Status = telemetry::FoxglovePlaybackState::Status;
-  const bool isAtEnd = m_served->time() >= m_served->range().end;
-  telemetry::FoxglovePlaybackState state;
-  state.status = moment.plays ? Status::Playing : isAtEnd ? Status::Ended : Status::Paused;
-  state.time = m_session.logTime(m_served->time());
-  state.speed = moment.speed;
+  telemetry::FoxglovePlaybackState state = m_served->playback(moment.plays, moment.speed);
   state.didSeek = didSeek;
   state.requestId = requestId;
   m_server->setPlayback(state);

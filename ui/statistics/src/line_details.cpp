@@ -116,7 +116,7 @@ QString comparisonOf(const StatisticsRow& row, const QString& against,
 QString mapNoteOf(const telemetry::StretchLine& line) {
   QString text;
   if (line.isCode) {
-    text = QStringLiteral("Codes have no mean, and so no map.");
+    text = QStringLiteral("No map: the values are codes, which have no mean.");
   } else if (!line.map) {
     text =
         QStringLiteral("This place is not known for %1.").arg(QString::fromStdString(line.robot));
@@ -137,7 +137,7 @@ LineDetails::LineDetails(QWidget* parent) : QWidget(parent) {
   m_views->setExpanding(false);
   m_views->addTab(QStringLiteral("Numbers"));
   m_views->addTab(QStringLiteral("Field"));
-  m_views->setTabToolTip(1, QStringLiteral("Mean of the value by place"));
+  m_views->setTabToolTip(1, QStringLiteral("Mean value at each place on the field"));
   m_place = new QComboBox(this);
   m_place->setObjectName(QStringLiteral("statisticsPlace"));
   m_place->setAccessibleName(QStringLiteral("Place"));

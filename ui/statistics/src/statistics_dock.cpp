@@ -114,10 +114,9 @@ class StatisticsDock : public QWidget {
     column->addWidget(m_empty, 1);
     m_message->clear();
     m_empty->setText(QStringLiteral(
-        "Which mean, how sure, how often, when? Type the name of a variable or an expression "
-        "above, "
-        "or drag variables here. The selected range of the timeline is described; without one, "
-        "everything."));
+        "Type a variable or an expression above, or drag variables here, to see means and how "
+        "certain they are, extremes and states. This describes the selected range of the timeline, "
+        "or everything if nothing is selected."));
     m_settle.setSingleShot(true);
     m_patience.setSingleShot(true);
     m_patience.setInterval(patienceMilliseconds);

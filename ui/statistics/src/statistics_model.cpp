@@ -46,9 +46,9 @@ const std::array<ColumnFacts, StatisticsModel::columns> columnFacts{{
      [](const StretchLine& l) { return ofError(l, &telemetry::CurveError::bias); }},
     {"bias_95", "95 % of the bias", "95 % confidence interval of the bias", ColumnUse::Comparison,
      false, [](const StretchLine& l) { return ofError(l, &telemetry::CurveError::biasLow); }},
-    {"error_rms", "RMS error", "Root of the mean square of the difference", ColumnUse::Comparison,
-     true, [](const StretchLine& l) { return ofError(l, &telemetry::CurveError::rms); }},
-    {"largest_error", "Largest error", "Difference of the largest amount. Click to go there",
+    {"error_rms", "RMS error", "Root mean square of the difference", ColumnUse::Comparison, true,
+     [](const StretchLine& l) { return ofError(l, &telemetry::CurveError::rms); }},
+    {"largest_error", "Largest error", "Largest difference. Click to go there",
      ColumnUse::Comparison, true,
      [](const StretchLine& l) { return ofError(l, &telemetry::CurveError::largest); }},
     {"correlation", "Correlation", "Pearson's coefficient of both curves", ColumnUse::Comparison,
@@ -56,7 +56,7 @@ const std::array<ColumnFacts, StatisticsModel::columns> columnFacts{{
      [](const StretchLine& l) { return ofCorrelation(l, &telemetry::CurveCorrelation::atZero); }},
     {"delay", "Delay (s)", "How much later the other curve comes", ColumnUse::Comparison, true,
      [](const StretchLine& l) { return ofCorrelation(l, &telemetry::CurveCorrelation::delay); }},
-    {"delayed_correlation", "Correlation then", "Pearson's coefficient at that delay",
+    {"delayed_correlation", "Correlation at delay", "Pearson's coefficient at that delay",
      ColumnUse::Comparison, false,
      [](const StretchLine& l) {
        return ofCorrelation(l, &telemetry::CurveCorrelation::coefficient);
@@ -68,7 +68,7 @@ const std::array<ColumnFacts, StatisticsModel::columns> columnFacts{{
      ColumnUse::Numbers, true, [](const StretchLine& l) { return l.summary.meanLow; }},
     {"sd", "SD", "Standard deviation", ColumnUse::Numbers, true,
      [](const StretchLine& l) { return l.summary.deviation; }},
-    {"rms", "RMS", "Root of the mean square", ColumnUse::Numbers, false,
+    {"rms", "RMS", "Root mean square", ColumnUse::Numbers, false,
      [](const StretchLine& l) { return l.summary.rms; }},
     {"min", "Min", "Smallest value. Click to go there", ColumnUse::Numbers, true,
      [](const StretchLine& l) { return l.summary.least; }},
@@ -265,7 +265,7 @@ QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
       if (moment) return theme().accentLine;
       return {};
     case Qt::ToolTipRole:
-      if (row.isMissing) return QStringLiteral("There is nothing of this name here");
+      if (row.isMissing) return QStringLiteral("No variable of this name here");
       if (moment) {
         return QStringLiteral("%1 at %2. Click to go there")
             .arg(shortValueText(facts.number(row.line), row.line.unit),

@@ -73,6 +73,12 @@ Json valueOf(const telemetry::Slot& slot, const RowView& row) {
 
 }  // namespace
 
+std::function<std::uint64_t(double)> logTimesFrom(telemetry::WallTime start) {
+  return [begin = static_cast<std::uint64_t>(start.time_since_epoch().count())](double seconds) {
+    return begin + static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+  };
+}
+
 ServedMatch::ServedMatch(telemetry::FoxgloveServer& server,
                          std::function<std::uint64_t(double)> logTime)
     : m_server(server), m_logTime(std::move(logTime)) {

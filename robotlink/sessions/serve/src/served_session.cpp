@@ -46,4 +46,13 @@ void ServedSession::playTo(double time, const std::function<bool()>& goesOn) {
   m_served.setTime(m_time);
 }
 
+telemetry::FoxglovePlaybackState ServedSession::playback(bool plays, double speed) const {
+  using Status = telemetry::FoxglovePlaybackState::Status;
+  telemetry::FoxglovePlaybackState state;
+  state.status = plays ? Status::Playing : m_time >= m_range.end ? Status::Ended : Status::Paused;
+  state.time = m_session.logTime(m_time);
+  state.speed = speed;
+  return state;
+}
+
 }  // namespace pitchboard::link

@@ -14,6 +14,7 @@ class QSpinBox;
 
 namespace pitchboard::ui {
 
+class InPlaceMessage;
 class NetworkShare;
 
 class ShareDialog : public QDialog {
@@ -31,7 +32,7 @@ class ShareDialog : public QDialog {
   QSpinBox* m_port;
   QCheckBox* m_everyComputer;
   QLabel* m_state;
-  QLabel* m_problem;
+  InPlaceMessage* m_problem;
   QPushButton* m_change;
   QPushButton* m_copy;
 };

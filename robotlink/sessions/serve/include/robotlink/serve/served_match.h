@@ -23,6 +23,9 @@
 
 namespace pitchboard::link {
 
+/// Converts seconds of a source that began at this time to ns since 1970.
+std::function<std::uint64_t(double)> logTimesFrom(telemetry::WallTime start);
+
 /// Topics: "/robots/B1/row", "/match/row", "/events", "/log" and "/field".
 class ServedMatch : public telemetry::RowSink {
  public:

@@ -26,6 +26,9 @@ class ServedSession {
   /// Shows everything that happened between the moment shown and this one, which is not before it;
   /// what is left is left out once `goesOn` returns false.
   void playTo(double time, const std::function<bool()>& goesOn);
+  /// Returns what clients are told of the playback: it plays, is paused at the moment shown, or has
+  /// ended.
+  telemetry::FoxglovePlaybackState playback(bool plays, double speed) const;
 
  private:
   const telemetry::SessionReader& m_session;
