@@ -242,6 +242,27 @@ experiments() {
   shoot experiments
 }
 
+video() {
+  recording
+  "$bin/pitchboard" --paint match.mcap --picture field.mp4 --from 2 --until 60 --rate 30 --size 1280x900 >/dev/null
+  local way='x0=W*0.28:y0=H*0.12:x1=W*0.9:y1=H*0.2:x2=W*0.03:y2=H*0.72:x3=W*0.97:y3=H*0.95'
+  ffmpeg -loglevel error -y -i field.mp4 -vf "perspective=$way:sense=destination,scale=1280:720" -c:v libx264 -g 30 north.mp4
+  way='x0=W*0.05:y0=H*0.25:x1=W*0.7:y1=H*0.1:x2=W*0.1:y2=H*0.95:x3=W*0.98:y3=H*0.7'
+  ffmpeg -loglevel error -y -i field.mp4 -vf "perspective=$way:sense=destination,scale=1280:720" -c:v libx264 -g 30 goal.mp4
+  cat >match.mcap.notes.json <<'END'
+{"version": 1, "bookmarks": [], "videos": [
+  {"file": "north.mp4", "moments": [{"session": 2, "video": 0}], "points": [
+    {"field_x": -4.5, "field_y": 3, "x": 0.306, "y": 0.167}, {"field_x": 4.5, "field_y": 3, "x": 0.858, "y": 0.245},
+    {"field_x": 4.5, "field_y": -3, "x": 0.889, "y": 0.824}, {"field_x": -4.5, "field_y": -3, "x": 0.121, "y": 0.648}]},
+  {"file": "goal.mp4", "moments": [{"session": 2, "video": 0}]}]}
+END
+  studio --session match.mcap
+  find "Panels: Video"
+  drag 720 470 400
+  click 560 855
+  shoot video 3
+  rm match.mcap.notes.json
+}
 explore() {
   studio --scenario match-3v3 --seed 2 --cognition inline --play-to 6000 # red is about to score
   find "Explore from this moment"
@@ -285,9 +306,27 @@ tutorial-rerun() {
   sed 's/return 3  *# turn right.*/return 2 if floats[PAN_DEG] > 0 else 3/' ball_robot.py >fixed_robot.py
   terminal tutorial-rerun "pitchboard-cli rerun match.mcap --robot B1 --process decision=fixed_robot.py"
 }
+rules() {
+  recording
+  page rules.md rules.json
+  studio --session match.mcap --at 1:12
+  find "Check rules"
+  xdotool search --sync --onlyvisible --name "Open rules" windowfocus
+  xdotool type --delay 20 "$work/rules.json" && sleep 0.5
+  xdotool key Return
+  shoot rules 3
+}
 statistics() {
   "$bin/pitchboard-cli" record --scenario match-3v3 --duration 40 -o match.mcap --force
   terminal statistics "pitchboard-cli statistics match.mcap --variables TRUE_X --robots B1,B2,R1 --against BELIEF_X --histogram 5"
+}
+
+plays() {
+  "$bin/pitchboard-cli" record --scenario match-3v3 --duration 300 --seed 4 -o match.mcap --force
+  studio --session match.mcap
+  find "Play by play"
+  drag 700 620 480
+  shoot plays 3
 }
 
 tutorial-rerun-studio() {
@@ -297,6 +336,14 @@ tutorial-rerun-studio() {
   xdotool search --onlyvisible --name "Rerun with a program" windowfocus
   xdotool key alt+p ctrl+a && xdotool type --delay 20 "$work/fixed_robot.py" && sleep 1 && xdotool key Return
   shoot tutorial-rerun-studio 12
+}
+tutorial-rerun-follow() {
+  page tutorial-rerun.md duel.json
+  "$bin/pitchboard-cli" record --scenario duel.json --seed 9 --duration 0:30 -o duel.mcap --force >/dev/null
+  studio --session duel.mcap --at 4
+  find "others follow"
+  xdotool search --onlyvisible --name "others follow" windowfocus
+  shoot tutorial-rerun-follow 2
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
 building() { terminal building "$root/build/release/tests/tests_simcore tst_referee_parameters"; }
@@ -356,7 +403,7 @@ END
 }
 
 [ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots rollouts processes live plots replay experiments \
-  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun tutorial-rerun-studio building cli conformance continuous-integration file-formats performance statistics worlds
+  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun tutorial-rerun-studio tutorial-rerun-follow building cli conformance continuous-integration file-formats performance plays rules statistics video worlds
 for name in "$@"; do
   "$name"
   if [ -f "$name.webp" ]; then

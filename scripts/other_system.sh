@@ -68,6 +68,7 @@ proxy=$(apt-config dump --format '%v' Acquire::http::Proxy)
 git diff --quiet HEAD || echo "warning: changes that are not committed are not tested" >&2
 
 root=$(mktemp -d -t pitchboard-system.XXXXXX)
+chmod 755 "$root" # users of the system have to get into it, such as that of munge
 # in_root mounts in a namespace of its own, so that nothing else is below the root here.
 # unshare ignores SIGTERM; its processes end with it.
 child=''
@@ -84,6 +85,7 @@ in_root() {
     mount --make-rprivate /
     mount -t proc proc "$root/proc"
     mount -t tmpfs shm "$root/dev/shm"
+    mount -t devpts -o newinstance,ptmxmode=0666,mode=0620,gid=5 devpts "$root/dev/pts"
     mount --bind "$cache/packages" "$root/var/cache/apt/archives"
     mount --bind "$cache/compiled" "$root/root/.cache/ccache"
     exec chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin TERM=dumb LC_ALL=C.UTF-8 \

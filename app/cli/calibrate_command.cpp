@@ -104,8 +104,9 @@ void addCalibrateCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command = parent.add_subcommand(
       "calibrate",
-      "Estimate a robot model from recordings of a robot: speeds, times, noise, camera, kicks. "
-      "Exits with 1 if nothing can be estimated.\n"
+      "Estimate a robot model from recordings of it. The model has speeds, times, noise, camera "
+      "and "
+      "kicks. Exits with 1 if nothing can be estimated.\n"
       "Example: pitchboard-cli calibrate training.mcap --robot B1 -o robot.json --report "
       "robot.html");
   command->add_option("session", options->sessions, "The recordings")

@@ -30,11 +30,55 @@
 namespace pitchboard::cli {
 namespace {
 
-/// Writes the part of the session in the closed range (s, may exceed the session) as an HTML page.
+constexpr double clipLead = 8.0, clipTrail = 4.0;  // s round a goal or a shot
+
+/// Writes a recording of each goal and shot into a folder beside the report: match.html and
+/// match-clips/0312.mcap.
+Result<std::vector<link::ReportClip>> writeClips(const telemetry::SessionReader& session,
+                                                 telemetry::TimeRange range,
+                                                 const std::vector<link::PlayEvent>& plays,
+                                                 const std::string& output, IfExists ifExists) {
+  std::vector<link::ReportClip> clips;
+  for (const link::PlayEvent& play : plays) {
+    if (play.kind != link::PlayKind::Goal && play.kind != link::PlayKind::Shot) continue;
+    const telemetry::TimeRange part{std::max(range.begin, play.time - clipLead),
+                                    std::min(range.end, play.time + clipTrail)};
+    if (!clips.empty() && part.begin <= clips.back().range.end) {
+      clips.back().range.end = part.end;
+    } else {
+      clips.push_back({part, {}});
+    }
+  }
+  if (clips.empty()) return clips;
+  const std::filesystem::path page(output);
+  const std::string folder = page.stem().string() + "-clips";
+  std::error_code failed;
+  std::filesystem::create_directories(page.parent_path() / folder, failed);
+  if (failed) {
+    return failure(ErrorCode::SystemError, "Cannot create the folder " + folder + " for clips: " +
+                                               failed.message() + ". Choose another -o.");
+  }
+  for (link::ReportClip& clip : clips) {
+    const int second = static_cast<int>(clip.range.begin);
+    char name[32];
+    std::snprintf(name, sizeof name, "%02d%02d.mcap", second / 60, second % 60);
+    clip.href = folder + '/' + name;
+    telemetry::ExportSelection selection;
+    selection.range = clip.range;
+    selection.opening = link::openingAt(session, clip.range.begin);
+    TRY(link::chooseRobots(session, telemetry::ExportFormat::Mcap, selection));
+    TRY(telemetry::exportFile(session, telemetry::ExportFormat::Mcap, selection,
+                              (page.parent_path() / clip.href).string(), {}, ifExists));
+  }
+  return clips;
+}
+
+/// Writes the part of the session in the closed range (s, may exceed the session) as an HTML page,
+/// or its plays as a table.
 Result<void> exportReport(const telemetry::SessionReader& session, telemetry::TimeRange range,
                           const std::vector<std::string>& robots, const std::string& output,
-                          IfExists ifExists) {
-  if (output.empty()) {
+                          IfExists ifExists, bool asTable, bool withClips) {
+  if (output.empty() && !asTable) {
     return failure(ErrorCode::InvalidArgument, "a report needs a file: add -o FILE.html");
   }
   const auto all = session.range();
@@ -50,6 +94,15 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
   content.events = link::eventsOf(session);
   const link::RobotChoice chosen = TRY(link::RobotChoice::of(session, robots));
   link::keepRobots(content, chosen);
+  if (asTable) {
+    const std::string table = link::playCsv(content.statistics.plays);
+    if (!output.empty()) return writeFile(output, table, ifExists, session.file().contents().name);
+    if (std::fwrite(table.data(), 1, table.size(), stdout) == table.size()) return {};
+    return tl::unexpected(shared::outputError(errno));
+  }
+  if (withClips) {
+    content.clips = TRY(writeClips(session, part, content.statistics.plays, output, ifExists));
+  }
   content.notes = session.notes();
   if (session.isGrowing()) {
     content.notes.push_back("The recording had not ended when this report was written.");
@@ -76,13 +129,13 @@ Result<void> exportReport(const telemetry::SessionReader& session, telemetry::Ti
 
 using namespace telemetry;
 
-constexpr const char* reportFormat = "report";
+constexpr const char *reportFormat = "report", *playsFormat = "plays";
 
 struct ExportOptions {
   std::string file, format, output;
   PartOptions part;
   std::vector<std::string> robots, variables;
-  bool rowsOnly = false, interpolate = false;
+  bool rowsOnly = false, interpolate = false, clips = false;
   double rate = 10.0;
   bool force = false, progress = false;
 };
@@ -115,6 +168,7 @@ Result<std::string> formatOf(const ExportOptions& options) {
 /// Refuses options that would be ignored.
 Result<void> checkOptions(const CLI::App& command, const std::string& format) {
   static const FormatOption limited[] = {
+      {"--clips", {reportFormat}},
       {"--interpolate", {"csv-even"}},
       {"--rate", {"csv-even", "mp4", "webm"}},
       {"--rows-only", {"jsonl", "mcap"}},
@@ -135,7 +189,8 @@ Result<void> checkOptions(const CLI::App& command, const std::string& format) {
 }
 
 int exportSession(const ExportOptions& options) {
-  const bool asReport = options.format == reportFormat;
+  const bool asTable = options.format == playsFormat;
+  const bool asReport = asTable || options.format == reportFormat;
   const bool asPicture = isPictureFormat(options.format);
   const auto format = asReport || asPicture ? ExportFormat::CsvWide : exportFormat(options.format);
   if (!format) return reportError(format.error());
@@ -161,12 +216,13 @@ int exportSession(const ExportOptions& options) {
     return reportError(good.error());
   }
   if (asReport || asPicture) {
-    const auto done =
-        asReport ? exportReport(*session, selection.range, options.robots, options.output, *old)
-                 : exportPictures(*session,
-                                  {options.format, part->from, part->until, options.rate,
-                                   options.output, options.robots, *old},
-                                  std::ref(progress));
+    const auto done = asReport
+                          ? exportReport(*session, selection.range, options.robots, options.output,
+                                         *old, asTable, options.clips)
+                          : exportPictures(*session,
+                                           {options.format, part->from, part->until, options.rate,
+                                            options.output, options.robots, *old},
+                                           std::ref(progress));
     for (const std::string& note : session->notes())
       std::fprintf(stderr, "warning: %s\n", note.c_str());
     return done ? 0 : reportError(done.error());
@@ -224,7 +280,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->add_option(
           "--to", options->format,
           "csv-wide (a row per time), csv-even (resampled at --rate), csv-long (a row per value), "
-          "jsonl, mcap, report (HTML), svg or png (the field at --from), mp4 or webm (a video, "
+          "jsonl, mcap, report (HTML), plays (CSV of passes, shots, set plays), svg or png (the "
+          "field at --from), mp4 or webm (a video, "
           "needs ffmpeg). Without it, the name of the output says the format; on standard output "
           "csv-wide")
       ->type_name("FORMAT");
@@ -237,6 +294,8 @@ void addExportCommand(CLI::App& parent, int& exitCode) {
       ->capture_default_str();
   command->add_flag("--interpolate", options->interpolate,
                     "csv-even: interpolate linearly instead of holding each value");
+  command->add_flag("--clips", options->clips,
+                    "report: write a recording of each goal and shot beside it, with links");
   command->add_flag("--rows-only", options->rowsOnly,
                     "Leave out events, log and datagrams (jsonl, mcap)");
   command

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/query/find_moments.h>
 
-#include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -21,7 +19,6 @@ namespace pitchboard::cli {
 namespace {
 
 using namespace telemetry;
-namespace fs = std::filesystem;
 
 struct FindCommand {
   std::vector<std::string> places;  // files and folders, and at the end the condition
@@ -30,41 +27,6 @@ struct FindCommand {
   bool json = false, csv = false, progress = false;
   int jobs = 0;
 };
-
-/// Returns the recordings of a folder and the folders in it, in order of their names.
-Result<std::vector<std::string>> recordingsIn(const std::string& folder) {
-  std::vector<std::string> out;
-  std::error_code error;
-  for (fs::recursive_directory_iterator
-           at(folder, fs::directory_options::skip_permission_denied, error),
-       end;
-       !error && at != end; at.increment(error)) {
-    std::error_code unknown;
-    if (at->path().extension() == ".mcap" && at->is_regular_file(unknown)) {
-      out.push_back(at->path().string());
-    }
-  }
-  if (error) return failure(ErrorCode::SystemError, error.message() + ".", folder);
-  std::ranges::sort(out);
-  return out;
-}
-
-Result<std::vector<std::string>> recordingsOf(const std::vector<std::string>& places) {
-  std::vector<std::string> out;
-  for (const std::string& place : places) {
-    std::error_code unknown;
-    if (!fs::is_directory(place, unknown)) {
-      out.push_back(place);
-      continue;
-    }
-    const std::vector<std::string> found = TRY(recordingsIn(place));
-    if (found.empty()) {
-      return failure(ErrorCode::NotFound, "This folder has no recordings (*.mcap).", place);
-    }
-    out.insert(out.end(), found.begin(), found.end());
-  }
-  return out;
-}
 
 void print(const std::string& file, const FoundMoment& moment, const FindCommand& command) {
   if (command.json) {
@@ -98,11 +60,9 @@ Result<int> findIn(const FindCommand& command) {
                    "Give a folder or files, and then the condition, such as 'BELIEF_ERROR > 50'.");
   }
   FindOptions options;
-  options.condition = command.places.back();
-  options.least = command.least.value_or(0.0);
-  options.robots = command.robots;
+  options.questions = {{command.places.back(), command.least.value_or(0.0), command.robots}};
   options.threads = static_cast<unsigned>(command.jobs);
-  TRY(checkCondition(options));
+  TRY(checkQuestion(options.questions.front()));
   const std::vector<std::string> files =
       TRY(recordingsOf({command.places.begin(), command.places.end() - 1}));
   const InterruptGuard signals;
@@ -114,33 +74,14 @@ Result<int> findIn(const FindCommand& command) {
   const auto report = [&](std::size_t index, FileMoments&& found) {
     const std::string& file = files[index];
     const std::string fresh = progress.fresh();
-    if (found.isForeign) {
-      std::fprintf(stderr,
-                   "%swarning: %s: another program recorded this file; make a session of it with "
-                   "pitchboard-cli import.\n",
-                   fresh.c_str(), file.c_str());
-      ++unanswered;
-    } else if (found.error && found.error->code == ErrorCode::NotFound && fs::exists(file)) {
+    if (!found.unanswered.empty()) {
       // A session of other robots may have nothing similar.
-      const bool isHint = found.error->message.find("did you mean") != std::string::npos;
-      if (!noVariable || isHint) noVariable = found.error;
-      ++unanswered;
-    } else if (found.error) {
-      (void)std::fputs(fresh.c_str(), stderr);
-      // Errors of a file begin with its name.
-      Error error = *found.error;
-      if (!error.context.starts_with(file)) {
-        error.context = error.context.empty() ? file : file + " " + error.context;
-      }
-      (void)reportError(error);
-      hasFailed = true;
+      const Error& error = found.unanswered.front().error;
+      if (!noVariable || error.message.find("did you mean") != std::string::npos)
+        noVariable = error;
     }
-    hasFailed = hasFailed || found.isDamaged;
-    if (!found.isForeign && !found.error) {
-      for (const std::string& note : found.notes) {
-        std::fprintf(stderr, "%swarning: %s: %s\n", fresh.c_str(), file.c_str(), note.c_str());
-      }
-    }
+    unanswered += found.isForeign || !found.unanswered.empty();
+    hasFailed = !reportReading(file, found, fresh) || hasFailed;
     moments += found.moments.size();
     for (const FoundMoment& moment : found.moments) print(file, moment, command);
     std::fflush(stdout);

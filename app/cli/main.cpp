@@ -21,10 +21,10 @@ int main(int argc, char** argv) try {
   constexpr std::array commands{
       &addSimulateCommand,   &addConformanceCommand, &addBlackboardCommands, &addCatalogCommands,
       &addListenCommand,     &addDecodeCommand,      &addRecordCommand,      &addInspectCommand,
-      &addRepairCommand,     &addExportCommand,      &addImportCommand,      &addExperimentCommand,
-      &addTournamentCommand, &addTestCommand,        &addCalibrateCommand,   &addLearnCommand,
-      &addExploreCommand,    &addRerunCommand,       &addServeCommand,       &addFindCommand,
-      &addStatisticsCommand};
+      &addRepairCommand,     &addExportCommand,      &addImportCommand,      &addJoinCommand,
+      &addExperimentCommand, &addTournamentCommand,  &addTestCommand,        &addCalibrateCommand,
+      &addLearnCommand,      &addExploreCommand,     &addRerunCommand,       &addServeCommand,
+      &addFindCommand,       &addCheckCommand,       &addStatisticsCommand};
   for (const AddCommand add : commands) add(app, exitCode);
 
   if (const auto ended = pitchboard::shared::parse(app, argc, argv)) exitCode = *ended;

@@ -38,8 +38,8 @@ void addRepairCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<RepairOptions>();
   CLI::App* command = parent.add_subcommand(
       "repair",
-      "Recover a truncated or damaged recording into a new file. The old file is not "
-      "changed.\nExits with 1 if data is missing, and prints what, with offset and time, to "
+      "Recover a damaged recording into a new file. The old file is not changed.\nExits with 1 if "
+      "data is missing, and prints what, with offset and time, to "
       "stderr.\nExample: pitchboard-cli repair match.mcap match-repaired.mcap");
   command->add_option("in", options->from, "The damaged recording")->required()->type_name("IN");
   command->add_option("out", options->to, "The new file")->required()->type_name("OUT");

@@ -36,12 +36,19 @@ struct RerunCommand {
   bool watch = false;
 };
 
+Result<std::vector<link::RerunProcess>> processesOf(const RerunCommand& command) {
+  std::vector<link::RerunProcess> processes;
+  for (const std::string& text : command.processes) {
+    link::RerunProcess& process = processes.emplace_back(TRY(link::rerunProcessFromText(text)));
+    process.program = link::besideRecording(process.program, command.session);
+  }
+  return processes;
+}
+
 Result<link::RerunOptions> rerunOptions(const RerunCommand& command,
                                         const telemetry::SessionReader& session) {
   link::RerunOptions options = command.options;
-  for (const std::string& process : command.processes) {
-    options.processes.push_back(TRY(link::rerunProcessFromText(process)));
-  }
+  options.processes = TRY(processesOf(command));
   const auto range = session.range().value_or(telemetry::TimeRange{});
   const auto time = [&](const std::string& text, std::optional<double>& seconds) -> Result<void> {
     if (!text.empty()) seconds = TRY(telemetry::sessionTime(text, session.info().start, range));
@@ -52,6 +59,7 @@ Result<link::RerunOptions> rerunOptions(const RerunCommand& command,
   options.speed = TRY(shared::speedFrom(command.speed));
   options.warmUp = command.warmUp;
   options.slack = command.slack;
+  options.isUnchanged = command.same;
   return options;
 }
 
@@ -119,7 +127,10 @@ Result<RerunEnd> rerunSession(const RerunCommand& command,
   }
   if (command.same) {
     const auto path = TRY(link::keepUnchanged(command.session, options, result));
-    std::fprintf(stderr, "Later reruns leave these differences out: %s\n", path.c_str());
+    std::fprintf(stderr,
+                 result.stretches() > 0 ? "Later reruns leave these differences out: %s\n"
+                                        : "Later reruns know that nothing differs: %s\n",
+                 path.c_str());
   }
   return RerunEnd{check ? TRY(judge(command, *check, result)) : 0, result.outputs};
 }
@@ -136,10 +147,7 @@ Result<int> rerunWatching(RerunCommand command) {
     return failure(ErrorCode::InvalidArgument,
                    "--same runs the unchanged program once; leave --watch out.");
   }
-  std::vector<link::RerunProcess> processes;
-  for (const std::string& process : command.processes) {
-    processes.push_back(TRY(link::rerunProcessFromText(process)));
-  }
+  const std::vector<link::RerunProcess> processes = TRY(processesOf(command));
   const InterruptGuard signals;
   link::ProgramWatch watch(processes);
   {

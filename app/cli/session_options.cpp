@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_options.h"
 
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <base/try.h>
 #include <telemetry/session/session_time.h>
 
 namespace pitchboard::cli {
 
 using namespace telemetry;
+namespace fs = std::filesystem;
 
 void addPart(CLI::App& command, PartOptions& options, const std::string& clockNote) {
   command.add_option("--from", options.from, std::string("Start: ") + sessionTimeForms)
@@ -47,6 +53,69 @@ void addRobots(CLI::App& command, std::vector<std::string>& robots, const char* 
 
 void addVariables(CLI::App& command, std::vector<std::string>& variables, const char* description) {
   command.add_option("--variables", variables, description)->type_name("NAMES")->delimiter(',');
+}
+
+namespace {
+
+/// Returns the recordings of a folder and the folders in it, in order of their names.
+Result<std::vector<std::string>> recordingsIn(const std::string& folder) {
+  std::vector<std::string> out;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           at(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       !error && at != end; at.increment(error)) {
+    std::error_code unknown;
+    if (at->path().extension() == ".mcap" && at->is_regular_file(unknown)) {
+      out.push_back(at->path().string());
+    }
+  }
+  if (error) return failure(ErrorCode::SystemError, error.message() + ".", folder);
+  std::ranges::sort(out);
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::string>> recordingsOf(const std::vector<std::string>& places) {
+  std::vector<std::string> out;
+  for (const std::string& place : places) {
+    std::error_code unknown;
+    if (!fs::is_directory(place, unknown)) {
+      out.push_back(place);
+      continue;
+    }
+    const std::vector<std::string> found = TRY(recordingsIn(place));
+    if (found.empty()) {
+      return failure(ErrorCode::NotFound, "This folder has no recordings (*.mcap).", place);
+    }
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+bool reportReading(const std::string& file, const FileMoments& found, const std::string& fresh) {
+  if (found.isForeign) {
+    std::fprintf(stderr,
+                 "%swarning: %s: another program recorded this file; make a session of it with "
+                 "pitchboard-cli import.\n",
+                 fresh.c_str(), file.c_str());
+    return true;
+  }
+  if (found.error && found.unanswered.empty()) {
+    (void)std::fputs(fresh.c_str(), stderr);
+    // Errors of a file begin with its name.
+    Error error = *found.error;
+    if (!error.context.starts_with(file)) {
+      error.context = error.context.empty() ? file : file + " " + error.context;
+    }
+    (void)reportError(error);
+    return false;
+  }
+  for (const std::string& note : found.notes) {
+    std::fprintf(stderr, "%swarning: %s: %s\n", fresh.c_str(), file.c_str(), note.c_str());
+  }
+  return !found.isDamaged;
 }
 
 }  // namespace pitchboard::cli

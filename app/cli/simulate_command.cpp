@@ -24,6 +24,7 @@
 #include "match_play.h"
 #include "progress.h"
 #include "simulate_report.h"
+#include "what_if.h"
 
 namespace pitchboard::cli {
 
@@ -162,15 +163,7 @@ struct Arguments {
   bool json = false;
   bool list = false;
   bool stdio = false;
-};
-
-/// A recorded match, and the moment from which it continues.
-struct Recorded {
-  link::Scenario scenario;
-  link::Moment moment;
-  double seconds() const {
-    return static_cast<double>(moment.state.tick) / moment.state.settings.tickRate;
-  }
+  WhatIfOptions whatIf;
 };
 
 /// The moment of --at, in seconds of the session.
@@ -186,28 +179,14 @@ Result<double> momentIn(const telemetry::SessionReader& session, const Arguments
   return time;
 }
 
-Result<Recorded> recordedMoment(const Arguments& arguments) {
-  const auto session = TRY(telemetry::SessionReader::open(arguments.session));
+Result<RecordedStart> recordedMoment(const Arguments& arguments) {
+  auto session = TRY(telemetry::SessionReader::open(arguments.session));
   const auto at = TRY(momentIn(session, arguments));
-  auto moment = link::momentFromSession(session, at, link::VariableCatalog::published());
-  if (!moment) {
-    Error error = moment.error();
-    error.context =
-        error.context.empty() ? arguments.session : arguments.session + ": " + error.context;
-    return tl::unexpected(error);
-  }
-  const auto text = session.attachment(link::scenarioAttachment);
-  if (!text) {
-    return failure(ErrorCode::NotFound,
-                   "this recording has no scenario, so its match cannot be continued",
-                   arguments.session);
-  }
-  auto scenario = TRY(link::scenarioFromJson(*text, arguments.session + ": scenario.json"));
-  return Recorded{std::move(scenario), std::move(*moment)};
+  return recordedStart(std::move(session), arguments.session, at);
 }
 
 Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition cognition,
-                                    const std::optional<Recorded>& recorded) {
+                                    const std::optional<RecordedStart>& recorded) {
   const MatchPlayOptions& play = arguments.play;
   auto scenario = scenarioToPlay(
       recorded ? shared::changed(recorded->scenario, play.match) : shared::scenarioFrom(play.match),
@@ -215,9 +194,11 @@ Result<link::Scenario> scenarioFrom(const Arguments& arguments, link::Cognition 
   if (!scenario || !recorded) return scenario;
   // Seconds from here on; a match that was already over continues, too.
   auto& duration = scenario->stop.duration;
-  const double now = recorded->seconds();
+  const double now = recorded->matchTime();
   if (play.duration) {
     duration = now + *play.duration;
+  } else if (!duration && arguments.whatIf.runs > 0) {
+    duration = now + defaultDuration;
   } else if (duration && *duration <= now + defaultDuration / 60.0) {
     duration = now + defaultDuration;
   }
@@ -253,19 +234,40 @@ class TraceRows : public link::TickObserver {
 /// Returns the exit code.
 Result<int> simulate(const Arguments& arguments) {
   const auto cognition = shared::cognitionOf(arguments.play.robots);
-  std::optional<Recorded> recorded;
+  std::optional<RecordedStart> recorded;
   if (!arguments.session.empty()) {
     recorded = TRY(recordedMoment(arguments));
   }
   const auto scenario = TRY(scenarioFrom(arguments, cognition, recorded));
   const auto speed = TRY(speedOf(arguments.play, cognition, scenario));
   const InterruptGuard signals;
-  auto match = TRY(createMatch(scenario, arguments.play, cognition));
-  if (recorded) {
-    TRY(match.restore(recorded->moment));
+  Following following;
+  if (recorded) following = TRY(followedBy(arguments.whatIf, *recorded, scenario));
+  const auto start = [&](const link::Scenario& played) -> Result<link::SimulatedMatch> {
+    auto match = TRY(createMatch(played, arguments.play, cognition));
+    if (recorded && recorded->moment) {
+      link::Moment moment = *recorded->moment;
+      moment.state.settings.seed += played.settings.seed - scenario.settings.seed;
+      TRY(match.restore(moment));
+    }
+    match.follow(following);
+    return match;
+  };
+  if (arguments.whatIf.runs > 0) {
+    TRY(playWhatIf(arguments.whatIf, *recorded, scenario, following,
+                   [&](const link::Scenario& played,
+                       const std::shared_ptr<link::TickObserver>& observer) -> Result<void> {
+                     auto match = start(played);
+                     if (!match) return tl::unexpected(match.error());
+                     link::MatchPlayer player(std::move(*match));
+                     player.observe(observer);
+                     (void)playToEnd(player, speed, [] { return true; });
+                     return {};
+                   }));
+    return 0;
   }
 
-  link::MatchPlayer player(std::move(match));
+  link::MatchPlayer player(TRY(start(scenario)));
   const IfExists ifExists = arguments.force ? IfExists::Replace : IfExists::Refuse;
   std::shared_ptr<TraceRows> trace;
   if (!arguments.trace.empty()) {
@@ -291,6 +293,9 @@ Result<int> simulate(const Arguments& arguments) {
     auto saved = writeFile(arguments.moment, link::scenarioToJson(player.match().toScenario()),
                            ifExists, arguments.session);
     if (!saved) return cannotWrite(saved.error(), arguments);
+  }
+  if (recorded && !arguments.json) {
+    for (const std::string& note : recorded->notes) std::printf("%s\n", note.c_str());
   }
   arguments.json ? printJson(player.match(), outcome) : printSummary(player.match(), outcome);
   return keepsDying(player.match()) ? 1 : 0;
@@ -328,6 +333,28 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
   from->needs(at);
   command->add_flag("--clock", a.clock, "Read --at as a time of day (this computer's time zone)")
       ->needs(at);
+  command
+      ->add_option("--follow", a.whatIf.follow,
+                   "Who follows the recording instead of playing: teams, robots, ball, such as "
+                   "red,ball; until a robot that plays comes near (docs/tutorial-rerun.md)")
+      ->type_name("WHO")
+      ->delimiter(',')
+      ->needs(from);
+  command
+      ->add_option("--reach", a.whatIf.reach,
+                   "Followers are let go when a robot that plays is this near the ball or them, in "
+                   "m, and elsewhere than recorded")
+      ->type_name("M")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str()
+      ->needs("--follow");
+  command
+      ->add_option("--runs", a.whatIf.runs,
+                   "Play N matches with different seeds, each until a goal, and print how often "
+                   "each outcome came, with 95 % intervals")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000))
+      ->needs(from);
   shared::addDuration(
       *command, "--duration", a.play.duration,
       "Stop after this simulated time; default: the scenario's end, the final whistle, or 60 s "
@@ -350,9 +377,14 @@ void addSimulateCommand(CLI::App& parent, int& exitCode) {
         "--answer-referee", "--match", "--runtime"}) {
     stdio->excludes(command->get_option(other));
   }
-  addGroup(*command, "Continue a recording", {"--from", "--at", "--clock"});
+  for (const char* other : {"--trace", "--save-moment"}) {
+    command->get_option("--runs")->excludes(command->get_option(other));
+  }
+  addGroup(*command, "Continue a recording",
+           {"--from", "--at", "--clock", "--follow", "--reach", "--runs"});
   addGroup(*command, "Other output", {"--trace", "--save-moment", "--force", "--stdio"});
   command->callback([arguments, &exitCode] {
+    arguments->whatIf.json = arguments->json;
     if (arguments->list) return listScenarios();
     if (arguments->stdio) {
       // As with processes of others, only the scenario's own conditions end a world.

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include <robotlink/match/followed_recording.h>
+
 namespace pitchboard::cli {
 namespace {
 
@@ -103,6 +105,9 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   std::printf("  Score      %s\n", resultText(match.result()).c_str());
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
               outcome.simulatedSeconds, outcome.wallSeconds, outcome.ticks, speedOf(outcome));
+  if (const link::FollowState& state = match.followState(); state.letGoAt) {
+    std::printf("  Let go     at %.2f s: %s\n", *state.letGoAt, state.why.c_str());
+  }
   std::printf("  State hash %s\n", hashText(match.simulation().hash()).c_str());
   if (!match.isRepeatable()) {
     std::printf("  Repeatable no: the match did not wait for a program's decision\n");
@@ -172,6 +177,9 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
            {"finished_by", outcome.finishedBy},
            {"state_hash", hashText(match.simulation().hash())},
            {"repeatable", result.repeatable}};
+  if (const link::FollowState& state = match.followState(); state.letGoAt) {
+    out["let_go"] = {{"at", *state.letGoAt}, {"why", state.why}};
+  }
   if (Json programs = programsJson(match); !programs.empty()) out["programs"] = std::move(programs);
   if (Json died = deathsJson(match); !died.empty()) out["died"] = std::move(died);
   std::printf("%s\n", out.dump().c_str());

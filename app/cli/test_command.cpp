@@ -31,7 +31,8 @@ struct Found {
   std::optional<Error> error;
 };
 
-/// Adds every *.json in `folder` and below it; links to folders are followed once.
+/// Adds every *.json in `folder` and below it, but the rules that tests name; links to folders are
+/// followed once.
 void collect(const std::filesystem::path& folder, std::set<std::filesystem::path>& seen,
              std::vector<Found>& out) {
   std::error_code code;
@@ -42,7 +43,8 @@ void collect(const std::filesystem::path& folder, std::set<std::filesystem::path
     std::error_code unknown;  // a link to nothing is no folder, and reading it says why
     if (files->is_directory(unknown)) {
       collect(files->path(), seen, out);
-    } else if (files->path().extension() == ".json") {
+    } else if (files->path().extension() == ".json" &&
+               !telemetry::rulesFromFile(files->path().string())) {
       out.push_back({files->path().string(), {}});
     }
   }

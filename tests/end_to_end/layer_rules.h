@@ -32,14 +32,15 @@ inline QStringList all(const QString& library) {
       {"simcore", {"base", "world", "rules", "physics", "simulation"}},
       {"telemetry",
        {"wire", "pb2", "series", "expression", "mcap", "session", "recordings", "foxglove",
-        "statistics", "query"}},
+        "statistics", "query", "video"}},
       {"robotlink",
        {"blackboard", "processes", "models",      "cognition", "rollout", "scenario", "frame",
         "match",      "live",      "session",     "import",    "report",  "serve",    "experiment",
         "learn",      "calibrate", "conformance", "capi",      "explore", "rerun"}},
-      {"ui", {"base",      "sources", "field", "robots",    "variables",  "plots",   "timeline",
-              "live",      "session", "noise", "processes", "log",        "referee", "experiments",
-              "calibrate", "explore", "rerun", "share",     "statistics", "window"}}};
+      {"ui", {"base",     "sources",     "field",     "robots",  "variables", "plots",
+              "timeline", "live",        "session",   "noise",   "processes", "log",
+              "referee",  "experiments", "calibrate", "explore", "rerun",     "rules",
+              "share",    "statistics",  "video",     "window"}}};
   QStringList folders;
   for (const QString& module : modules.value(library)) folders << library + '/' + module;
   return folders;
@@ -82,6 +83,8 @@ inline const QList<Module>& table() {
          {base, series, "telemetry/expression", "telemetry/session", "telemetry/mcap",
           "telemetry/statistics"},
          {}},
+        // The only one with FFmpeg.
+        {"telemetry/video", {base, wire}, {"libav", "libswscale/"}},
         {board, {base, world, series, wire, "resources"}, {"nlohmann/"}},
         {processes, {base, board, "resources"}, {}},
         {models, {base, world, "resources"}, {"nlohmann/"}},
@@ -335,6 +338,7 @@ inline QString headerOfPackage(const QString& target) {
                                                {"PkgConfig::LZ4", "lz4frame.h"},
                                                {"PkgConfig::sqlite3", "sqlite3.h"},
                                                {"PkgConfig::YAML", "yaml-cpp/"},
+                                               {"PkgConfig::FFMPEG", "libav"},
                                                {"protobuf::libprotobuf", "google/protobuf/"},
                                                {"PkgConfig::muparser", "muParser.h"},
                                                {"Boost::headers", "boost/"},

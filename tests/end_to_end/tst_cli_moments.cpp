@@ -2,8 +2,10 @@
 // The command line records a match, goes on from a moment of it, and writes its report.
 #include <QtTest>
 
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <cmath>
 
 #include "../support/program_run.h"
 
@@ -12,6 +14,17 @@ namespace tst_cli_moments {
 namespace {
 
 using Run = ProgramRun;
+
+/// The probability of at least `least` successes in `trials`, by the binomial formula.
+double atLeast(int least, int trials, double p) {
+  double sum = 0.0;
+  for (int k = least; k <= trials; ++k) {
+    const double ways = std::lgamma(trials + 1.0) - std::lgamma(k + 1.0) -
+                        std::lgamma(static_cast<double>(trials - k) + 1.0);
+    sum += std::exp(ways + k * std::log(p) + (trials - k) * std::log1p(-p));
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -47,6 +60,53 @@ class TestCliMoments : public QObject {
     QFile other(second);
     QVERIFY(other.open(QIODevice::ReadOnly));
     QCOMPARE(other.readAll(), text);
+  }
+
+  /// A goal was scored; in other runs the keeper is luckier. The ends of an exact interval are
+  /// those rates for which the result, or a more extreme one, has a probability of 2.5 %.
+  void outcomesAreRatesWithExactIntervals() {
+    const QString scenario = m_folder.filePath("duel.json"),
+                  session = m_folder.filePath("duel.mcap");
+    QFile file(scenario);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(R"({"version": 1, "name": "duel", "noise": "realistic", "ball": {"x": 2.6, "y": 0.3},
+      "robots": [
+        {"team": "blue", "number": 1, "x": 2.3, "y": 0.3, "heading": 0, "behaviour": "striker"},
+        {"team": "red", "number": 1, "x": 4.2, "y": 0, "heading": 180, "behaviour": "keeper"}],
+      "stop": {"goal": true}, "writes": [{"time": 0, "variable": "COM_REFEREE", "value": 2}]})");
+    file.close();
+    QCOMPARE(
+        cli({"record", "--scenario", scenario, "--seed", "9", "--duration", "30", "-o", session})
+            .exitCode,
+        0);
+    const QStringList whatIf{"simulate", "--from",   session,     "--at",   "4",  "--duration",
+                             "15",       "--follow", "blue,ball", "--runs", "40", "--json"};
+    const Run run = cli(whatIf);
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QJsonObject result = QJsonDocument::fromJson(run.out).object();
+    QCOMPARE(result["recorded"]["goal"], QJsonValue("left"));
+    QCOMPARE(result["believed"], QJsonValue(false));
+    int all = 0, inner = 0;
+    for (const QJsonValue& outcome : result["outcomes"].toArray()) {
+      const int hits = outcome["runs"].toInt();
+      const double low = outcome["interval"][0].toDouble(),
+                   high = outcome["interval"][1].toDouble();
+      all += hits;
+      QCOMPARE(outcome["rate"].toDouble(), hits / 40.0);
+      if (hits > 0) QVERIFY(std::abs(atLeast(hits, 40, low) - 0.025) < 1e-6);
+      if (hits < 40) QVERIFY(std::abs(1.0 - atLeast(hits + 1, 40, high) - 0.025) < 1e-6);
+      inner += hits > 0 && hits < 40;
+    }
+    QCOMPARE(all, 40);
+    QVERIFY(inner >= 2);
+    QVERIFY(!result["let_go_s"].toArray().isEmpty());
+    QCOMPARE(cli(whatIf).out, run.out);
+    // A single match tells when and why.
+    const QByteArray one = cli(whatIf.mid(0, 9)).out;
+    QVERIFY2(one.contains("Let go     at "), one.constData());
+    const Run nobody = cli(whatIf.mid(0, 8) + QStringList{"B7"});
+    QCOMPARE(nobody.exitCode, 2);
+    QVERIFY2(nobody.err.contains("there is no robot, team or ball \"B7\""), nobody.err.constData());
   }
 
   void badRequestsAreSentences_data() {

@@ -110,13 +110,19 @@ class TestCliRerun : public QObject {
              table.out.constData());
   }
 
+  void programsAreFoundBesideTheRecording() {
+    QVERIFY(!QFile::exists("changed.py"));
+    const QJsonObject changed = result({"--process", "decision=changed.py"});
+    QVERIFY(variable(changed, "DECISION_ACTION_A")["unequal"].toInt() > 0);
+  }
+
   void whatDiffersUnchangedIsKeptAndLeftOut() {
     QByteArray random = example("ball_robot.py");
     random.replace("import sys\n", "import random\nimport sys\n");
     random.replace("    if tick % 6 == 0:",
                    "    ints[19] = random.randrange(1000000)\n    if tick % 6 == 0:");
-    write("random.py", random);
-    const QStringList process{"--process", "decision=" + path("random.py")};
+    write("chance.py", random);
+    const QStringList process{"--process", "decision=" + path("chance.py")};
     const ProgramRun same = rerun(process + QStringList{"--same"});
     QVERIFY2(same.exitCode == 0, same.err.constData());
     QVERIFY2(same.out.contains("DECISION_STATE"), same.out.constData());
@@ -171,6 +177,8 @@ class TestCliRerun : public QObject {
         "decision=python3 " PITCHBOARD_SOURCE_DIR "/tests/end_to_end/naive_robot.py ${key} 0.1";
     const ProgramRun run = rerun({"--process", program, "--speed", "4", "--until", "8"});
     QVERIFY2(run.exitCode == 0 && run.out.contains("over time"), (run.err + run.out).constData());
+    QVERIFY2(run.out.contains("--same first") || run.out.contains("No difference"),
+             run.out.constData());
   }
 
   void manyRecordingsHaveALineEach() {
@@ -260,6 +268,12 @@ class TestCliRerun : public QObject {
                           << QStringList{"PROCESS=PROGRAM"};
     QTest::newRow("program") << QStringList{match, "--robot", "B1", "--process", "decision=strikr"}
                              << QStringList{"striker"};
+    QTest::newRow("folders") << QStringList{match, "--robot", "B1", "--process",
+                                            "decision=no-such.py"}
+                             << QStringList{QDir::currentPath(), "beside the recording"};
+    QTest::newRow("not what was recorded")
+        << QStringList{match, "--robot", "B1", "--process", "decision=reference", "--same"}
+        << QStringList{"team.json", "\"reference\" is not the unchanged program"};
     QTest::newRow("part") << QStringList{match,    "--robot", "B1", "--process", "decision=naive",
                                          "--from", "5:00"}
                           << QStringList{"5:00"};

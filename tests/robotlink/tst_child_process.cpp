@@ -204,6 +204,9 @@ class TestChildProcess : public QObject {
       }
     };
     expect({"/no/such/program"}, ErrorCode::NotFound, "No such file or directory");
+    const std::string here = QDir::currentPath().toStdString();
+    expect({"./no/such/program"}, ErrorCode::NotFound,
+           ("there is no such file in " + here).c_str());
     expect({"no-such-program-at-all"}, ErrorCode::NotFound, "no such program");
     expect({plain}, ErrorCode::SystemError,
            "Permission denied; make the file executable (chmod +x)");

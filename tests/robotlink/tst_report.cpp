@@ -171,7 +171,9 @@ class TestReport : public QObject {
     content.pictureCaption = "The field at 0:30";
     content.notes = {"The recording broke off."};
     const QString html = QString::fromStdString(reportHtml(content));
-    QVERIFY(!html.contains("<script") && !html.contains("<b>look"));
+    // The only script is the page's own.
+    QVERIFY(html.count("<script") == 1 && html.contains("<script>\ndocument.querySelectorAll") &&
+            !html.contains("<b>look"));
     QVERIFY(html.contains("0:12.3") && html.contains("goal for the left side"));
     QVERIFY(!html.contains("goal for the right side"));
     QVERIFY(html.contains("1 kick</summary>"));
@@ -182,7 +184,7 @@ class TestReport : public QObject {
     for (const auto& robot : m_statistics.robots) {
       QVERIFY(html.contains('>' + QString::fromStdString(robot.name) + "</span>"));
     }
-    QCOMPARE(html.count("</span> Ana &lt;i&gt;"), 2);  // in each of both tables
+    QCOMPARE(html.count("</span> Ana &lt;i&gt;"), 3);  // in both tables and the heat map tables
     QTemporaryDir folder;
     const std::string path = folder.filePath("report.html").toStdString();
     QVERIFY(writeReport(path, content));
@@ -252,6 +254,44 @@ class TestReport : public QObject {
     const QString html = QString::fromStdString(reportHtml(content));
     QVERIFY(html.contains("No robot was recorded.") && html.contains("Match report"));
     QVERIFY(!html.contains("nan"));
+  }
+
+  /// A browser sorts its tables, and nothing is wider than a phone.
+  void aBrowserShowsIt() {
+    const QString browser = QStandardPaths::findExecutable(QStringLiteral("chromium"));
+    if (browser.isEmpty()) QSKIP("needs the program chromium");
+    ReportContent content;
+    content.statistics = m_statistics;
+    const QTemporaryDir folder;
+    const QString path = folder.filePath(QStringLiteral("report.html"));
+    QFile page(path);
+    QVERIFY(page.open(QIODevice::WriteOnly));
+    page.write(QByteArray::fromStdString(reportHtml(content)) +
+               "<script>const way = document.querySelectorAll('table.sorts th')[1]; way.click();"
+               "const cells = [...way.closest('table').tBodies[0].rows].map(r => "
+               "r.cells[1].textContent);"
+               "document.title = [cells.join(';'), document.documentElement.scrollWidth, "
+               "window.innerWidth].join('|');</script>");
+    page.close();
+    QProcess process;
+    process.start(browser,
+                  {QStringLiteral("--headless"), QStringLiteral("--no-sandbox"),
+                   QStringLiteral("--disable-gpu"), QStringLiteral("--window-size=500,800"),
+                   QStringLiteral("--user-data-dir=") + folder.path(), QStringLiteral("--dump-dom"),
+                   QStringLiteral("file://") + path});
+    if (!process.waitForFinished(60'000) || process.exitCode() != 0) QSKIP("chromium cannot run");
+    const QString dom = QString::fromUtf8(process.readAllStandardOutput());
+    const qsizetype begin = dom.indexOf(QStringLiteral("<title>")) + 7;
+    const QStringList told =
+        dom.mid(begin, dom.indexOf(QStringLiteral("</title>")) - begin).split(QLatin1Char('|'));
+    QCOMPARE(told.size(), 3);
+    std::vector<double> ways;
+    for (const QString& cell : told[0].split(QLatin1Char(';'))) {
+      ways.push_back(cell.split(QLatin1Char(' ')).front().toDouble());
+    }
+    QCOMPARE(ways.size(), m_statistics.robots.size());
+    QVERIFY(std::ranges::is_sorted(ways) && ways.front() < ways.back());
+    QVERIFY(told[1].toInt() <= told[2].toInt());
   }
 };
 

@@ -81,7 +81,7 @@ QStringList lines(const FileMoments& of) {
 
 QStringList linesOf(const std::string& file, const std::string& condition, double least = 0.0,
                     const std::vector<std::string>& robots = {}) {
-  return lines(found({file}, {condition, least, robots, 1}).front());
+  return lines(found({file}, {{{condition, least, robots}}, 1}).front());
 }
 
 }  // namespace
@@ -165,16 +165,17 @@ class TestQuery : public QObject {
   }
 
   void whatIsWrongIsSaid() {
-    QVERIFY(!checkCondition({"DIST >"}));
-    QVERIFY(!checkCondition({"B1.DIST > 1", 0.0, {"B1"}}));
-    QVERIFY(checkCondition({"DIST > 1", 0.0, {"B1"}}));
-    const FileMoments none = found({m_small}, {"DISTT > 1"}).front();
+    QVERIFY(!checkQuestion({"DIST >"}));
+    QVERIFY(!checkQuestion({"B1.DIST > 1", 0.0, {"B1"}}));
+    QVERIFY(checkQuestion({"DIST > 1", 0.0, {"B1"}}));
+    const FileMoments none = found({m_small}, {{{"DISTT > 1"}}}).front();
     QCOMPARE(none.error->code, ErrorCode::NotFound);
     QVERIFY2(none.error->message.find("did you mean DIST?") != std::string::npos,
              none.error->message.c_str());
-    QCOMPARE(found({m_small}, {"B9.DIST > 1"}).front().error->code, ErrorCode::NotFound);
-    QCOMPARE(found({m_small}, {"first.DIST > 1"}).front().error->code, ErrorCode::InvalidArgument);
-    const FileMoments missing = found({m_small + ".not"}, {"DIST > 1"}).front();
+    QCOMPARE(found({m_small}, {{{"B9.DIST > 1"}}}).front().error->code, ErrorCode::NotFound);
+    QCOMPARE(found({m_small}, {{{"first.DIST > 1"}}}).front().error->code,
+             ErrorCode::InvalidArgument);
+    const FileMoments missing = found({m_small + ".not"}, {{{"DIST > 1"}}}).front();
     QVERIFY(missing.error && missing.moments.empty());
   }
 
@@ -212,7 +213,7 @@ class TestQuery : public QObject {
   void summariesOnlySkipWhatCannotHold() {
     QFETCH(const QString, condition);
     QFETCH(const bool, skips);
-    FindOptions options{condition.toStdString(), 0.0, {}, 1};
+    FindOptions options{{{condition.toStdString()}}, 1};
     const FileMoments quick = found({m_long}, options).front();
     QVERIFY2(!quick.error, quick.error ? quick.error->message.c_str() : "");
     options.usesSummaries = false;
@@ -232,14 +233,14 @@ class TestQuery : public QObject {
     std::vector<std::string> files;
     for (int i = 0; i < 30; ++i) files.push_back(i % 3 == 1 ? m_long : m_small);
     files[4] += ".not";
-    const auto all = found(files, {"B1.DIST > 995", 0.0, {}, 4});
+    const auto all = found(files, {{{"B1.DIST > 995"}}, 4});
     QCOMPARE(all.size(), files.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
       QCOMPARE(all[i].error.has_value(), i == 4);
       if (i != 4) QCOMPARE(all[i].moments.empty(), i % 3 != 1);
     }
     std::size_t reports = 0;
-    QVERIFY(findMoments(files, {"B1.DIST > 5"},
+    QVERIFY(findMoments(files, {{{"B1.DIST > 5"}}},
                         [&](std::size_t, FileMoments&&) { return ++reports < 3; }));
     QCOMPARE(reports, std::size_t{3});
   }
@@ -253,13 +254,13 @@ class TestQuery : public QObject {
     for (std::uint64_t i = 0; i < 1000; ++i) bytes[largest->offset + 200 + i] ^= 0x55;
     const std::string path = m_sessions.newPath();
     std::ofstream(path, std::ios::binary) << bytes;
-    const FileMoments damaged = found({path}, {"B1.DIST > 5", 0.0, {}, 2}).front();
+    const FileMoments damaged = found({path}, {{{"B1.DIST > 5"}}, 2}).front();
     QVERIFY2(!damaged.error, damaged.error ? damaged.error->text().c_str() : "");
     QVERIFY(damaged.isDamaged);
     QVERIFY(!damaged.notes.empty());
     QVERIFY(!damaged.moments.empty());
     std::ofstream(path, std::ios::binary) << "no session";
-    QVERIFY(found({path}, {"B1.DIST > 5"}).front().error);
+    QVERIFY(found({path}, {{{"B1.DIST > 5"}}}).front().error);
   }
 
   void stretchesOfSessions() {

@@ -87,7 +87,16 @@ struct SentBoards::Robot {
   BoardRow row;  // the newest
   LampMemory memory;
   LampMemory::Lamps lamps{};
-  std::vector<BoardRow> rows;  // not taken yet
+  std::vector<BoardRow> rows;     // not taken yet
+  std::optional<double> unbuilt;  // s, of the newest sample, as long as more of it may come
+
+  /// Of its names, which only become more.
+  struct Known {
+    std::size_t names = 0;
+    const NamedCatalog* catalog = nullptr;
+    std::vector<std::string> unknown;
+  };
+  Known known;
 
   bool isDescribed() const { return columns.has_value(); }
   bool hasBlackboard() const { return reported.blackboard.value_or(true); }
@@ -110,6 +119,7 @@ SentBoards::~SentBoards() = default;
 
 void SentBoards::setCatalogs(std::vector<NamedCatalog> catalogs) {
   m_catalogs = std::move(catalogs);
+  for (const auto& robot : m_robots) robot->known = {};
 }
 
 void SentBoards::clear() {
@@ -155,13 +165,21 @@ SentBoards::Robot* SentBoards::robotOf(int number, const telemetry::Sender& send
   return moved;
 }
 
-const NamedCatalog& SentBoards::catalogOf(const Robot& robot) const {
-  const auto known = [&robot](const NamedCatalog& one) {
-    return std::ranges::count_if(robot.values, [&one](const auto& value) {
-      return one.catalog.find(value.first) != nullptr;
-    });
+const NamedCatalog& SentBoards::catalogOf(Robot& robot) const {
+  Robot::Known& known = robot.known;
+  if (known.catalog != nullptr && known.names == robot.values.size()) return *known.catalog;
+  const auto isIn = [](const NamedCatalog& one, const auto& value) {
+    return one.catalog.find(value.first) != nullptr;
   };
-  return *std::ranges::max_element(m_catalogs, {}, known);
+  known.names = robot.values.size();
+  known.catalog = &*std::ranges::max_element(m_catalogs, {}, [&](const NamedCatalog& one) {
+    return std::ranges::count_if(robot.values, [&](const auto& value) { return isIn(one, value); });
+  });
+  known.unknown.clear();
+  for (const auto& value : robot.values) {
+    if (!isIn(*known.catalog, value)) known.unknown.push_back(value.first);
+  }
+  return *known.catalog;
 }
 
 /// Variables of the catalog that come with the first sample are words in its order, as on the
@@ -190,7 +208,9 @@ void SentBoards::describe(Robot& robot) const {
   robot.meanings = BoardMeanings(robot.group.columns);
 }
 
-void SentBoards::append(Robot& robot, double time) const {
+void SentBoards::append(Robot& robot) const {
+  if (!robot.unbuilt) return;
+  const double time = *std::exchange(robot.unbuilt, std::nullopt);
   const bool grows = robot.words.size() + robot.extras.size() < robot.values.size();
   if (grows) {
     const VariableCatalog& catalog = catalogOf(robot).catalog;
@@ -257,8 +277,14 @@ SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
   robot.last = std::max(robot.last, datagram.time);
   robot.arrivals.add(robot.last);
 
+  if (message.milliseconds != robot.newestSent) append(robot);
+  auto next = robot.values.begin();  // names often come in order
   for (const telemetry::Pb2Value& sent : message.values) {
-    auto known = robot.values.find(sent.name);
+    auto known = next != robot.values.end() && next->first == sent.name
+                     ? next
+                     : robot.values.find(sent.name);
+    next = known;
+    if (known != robot.values.end()) ++next;
     if (known == robot.values.end()) {
       if (robot.values.size() == maxVariables) {
         ++robot.refused;
@@ -287,12 +313,13 @@ SentBoards::Verdict SentBoards::take(const telemetry::Pb2Message& message,
     describe(robot);
   else
     robot.firstRow.reset();
-  append(robot, time);
+  robot.unbuilt = time;
   return Verdict::Used;
 }
 
 void SentBoards::drainRows(const BoardRowsTaker& take) {
   for (const auto& robot : m_robots) {
+    append(*robot);
     if (robot->rows.empty()) continue;
     take(robot->group, robot->rows);
     robot->rows.clear();
@@ -327,6 +354,7 @@ std::vector<RobotFrame> SentBoards::robots(WallTime now, const sim::FieldSpec& f
   std::vector<RobotFrame> all;
   for (const auto& robot : m_robots) {
     if (!robot->isDescribed()) continue;
+    append(*robot);
     RobotFrame& out = all.emplace_back();
     out.uid = robot->uid;
     out.key = {robot->place, robot->number, 0};
@@ -353,9 +381,7 @@ std::vector<SentStatus> SentBoards::status(WallTime now) const {
     out.link = linkOf(*robot, now);
     out.variables = robot->values.size();
     out.catalog = catalog.name;
-    for (const auto& [name, value] : robot->values) {
-      if (catalog.catalog.find(name) == nullptr) out.unknown.push_back(name);
-    }
+    out.unknown = robot->known.unknown;
     out.clockOffset = robot->clock.offset();
     out.restarts = robot->restarts;
     out.refresh_ms = robot->reported.refresh_ms;

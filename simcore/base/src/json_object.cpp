@@ -44,6 +44,32 @@ std::string_view withSameBeginning(std::string_view name, std::span<const std::s
   return best;
 }
 
+/// The name that ends with `name`, or else has it in it: "ball_dist" for "VISION_BALL_DIST". The
+/// shortest, if there are several.
+std::string_view around(std::string_view name, std::span<const std::string_view> known) {
+  constexpr std::size_t leastLetters = 4;
+  if (name.size() < leastLetters) return {};
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) ==
+           std::tolower(static_cast<unsigned char>(b));
+  };
+  std::string_view best;
+  bool bestEnds = false;
+  for (const std::string_view candidate : known) {
+    if (std::search(candidate.begin(), candidate.end(), name.begin(), name.end(), same) ==
+        candidate.end()) {
+      continue;
+    }
+    const bool ends =
+        std::ranges::equal(candidate.substr(candidate.size() - name.size()), name, same);
+    if (best.empty() || ends > bestEnds || (ends == bestEnds && candidate.size() < best.size())) {
+      best = candidate;
+      bestEnds = ends;
+    }
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string_view nearestName(std::string_view name, std::span<const std::string_view> known) {
@@ -59,7 +85,7 @@ std::string_view nearestName(std::string_view name, std::span<const std::string_
     }
   }
   if (best.empty()) best = withSameBeginning(name, known);
-  return best;
+  return best.empty() ? around(name, known) : best;
 }
 
 namespace {

@@ -67,6 +67,8 @@ std::string explained(std::string complaint) {
     return complaint + "; remove the comma in front of it";
   if (says("invalid literal; last read: ") && (says("/'") || says("#'") || says("/*")))
     return complaint + "; JSON has no comments";
+  if (says("parsing object key - unexpected number literal"))
+    return complaint + "; numbers have a decimal point, such as 0.3";
   return complaint;
 }
 

@@ -79,14 +79,15 @@ Result<Simulation> Simulation::create(const SimulationSettings& settings) {
   if (settings.referee) {
     TRY(simulation.setReferee(settings.referee));
   }
-  simulation.m_state.robots.reserve(maxRobots);
-  simulation.m_state.models.reserve(maxRobots);
-  simulation.m_state.statistics.reserve(maxRobots);
-  simulation.m_events.reserve(std::size_t{4} * maxRobots);
-  simulation.m_called.reserve(std::size_t{4} * maxRobots);
-  simulation.m_placements.robots.reserve(std::size_t{2} * maxRobots);
-  simulation.m_seen.robots.reserve(maxRobots);
+  simulation.makeRoom();
   return simulation;
+}
+
+void Simulation::makeRoom() {
+  const std::size_t robots = robotCount();
+  for (std::vector<Event>* events : {&m_events, &m_called}) events->reserve(4 * (robots + 4));
+  m_placements.robots.reserve(2 * robots);
+  m_seen.robots.reserve(robots);
 }
 
 void Simulation::step(std::span<const RobotCommand> commands, std::span<Percepts> percepts) {
@@ -201,6 +202,7 @@ Result<void> Simulation::restore(const WorldState& state) {
   m_events.clear();
   m_called.clear();
   m_eventsTaken = m_calledTaken = 0;
+  makeRoom();
   return {};
 }
 
@@ -266,6 +268,7 @@ Result<void> Simulation::addRobot(const RobotIdentity& identity, const Pose& pos
   m_model->robotAdded(m_state,
                       {insideWalls(m_state.settings.field, pose.position, radius), pose.yaw});
   m_model->settingsChanged(m_state);
+  makeRoom();
   return {};
 }
 

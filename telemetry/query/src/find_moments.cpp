@@ -3,77 +3,30 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
 #include <thread>
 
 #include <base/try.h>
-#include <telemetry/query/session_query.h>
 
-#include "comparisons.h"
+#include "asked_questions.h"
 #include "possible_times.h"
-#include "stretches.h"
 
 namespace pitchboard::telemetry {
 namespace {
 
 /// Below this many rows, opening a file again for another thread costs more than it saves.
 constexpr std::uint64_t minRowsToSplit = 100'000;
-constexpr double noExcess = std::numeric_limits<double>::quiet_NaN();
-
-/// What is evaluated: whether the condition holds and, if it begins with a comparison, how far.
-struct Question {
-  QueryTexts texts;
-  bool hasValue = false;
-  double sign = 1.0, limit = 0.0;  ///< the excess is sign * (value - limit)
-};
-
-Question questionOf(const FindOptions& options) {
-  Question out;
-  out.texts.robots = options.robots;
-  out.texts.values = {options.condition};
-  auto first = comparisonOf(conjunctsOf(options.condition).front());
-  if (!first || first->op == "==") return out;
-  if (const auto turned = withNumberOnTheRight(*first)) first = turned;
-  const auto limit = numberIn(first->right);
-  const std::string value = limit ? first->left : "(" + first->left + ") - (" + first->right + ")";
-  // The value has to have its samples where the condition has them: at its first variable.
-  const auto parsed = Expression::parse(value, eachRobot);
-  const auto whole = Expression::parse(options.condition, eachRobot);
-  if (!parsed || !whole || parsed->variables().front() != whole->variables().front()) return out;
-  out.texts.values = {value};
-  out.texts.condition = options.condition;
-  out.hasValue = true;
-  out.sign = first->op.front() == '<' ? -1.0 : 1.0;
-  out.limit = limit.value_or(0.0);
-  return out;
-}
 
 /// The stretches of every curve in some ranges. Returns false if `goOn` did.
-bool findIn(const SessionReader& session, SessionQuery& query, const Question& question,
+bool findIn(const SessionReader& session, AskedQuery& query, std::span<const AskedQuestion> asked,
             std::span<const TimeRange> ranges, std::vector<Stretches>& out,
             const std::function<bool()>& goOn) {
-  out.assign(query.curves().size(), {});
-  for (const TimeRange& range : ranges) {
-    const bool whole = query.run(
-        session, range,
-        [&](const QuerySample& sample) {
-          const bool holds = question.hasValue ? sample.isConditioned
-                                               : std::isfinite(sample.value) && sample.value != 0.0;
-          out[sample.curve].add(sample.time, holds, [&] {
-            return question.hasValue
-                       ? Stretches::Excess{question.sign * (sample.value - question.limit),
-                                           sample.value}
-                       : Stretches::Excess{noExcess, noExcess};
-          });
-          return true;
-        },
-        [&goOn](double) { return !goOn || goOn(); });
-    if (!whole) return false;
-  }
-  return true;
+  out.assign(query.query->curves().size(), {});
+  return std::ranges::all_of(ranges, [&](const TimeRange& range) {
+    return addStretches(session, query, asked, range, out,
+                        [&goOn](double) { return !goOn || goOn(); });
+  });
 }
 
 /// Cuts ranges into `parts` lists that last about equally long.
@@ -99,20 +52,6 @@ std::vector<std::vector<TimeRange>> cutInto(std::size_t parts,
   return out;
 }
 
-void keepMoments(const SessionQuery& query, const std::vector<Stretches>& stretches,
-                 const FindOptions& options, FileMoments& out) {
-  constexpr double rounding = 1e-9;  // s
-  for (std::size_t c = 0; c < stretches.size(); ++c) {
-    for (const Stretches::Found& found : stretches[c].found()) {
-      if (found.until - found.from < options.least - rounding) continue;
-      FoundMoment moment{query.curves()[c].robot, {found.from, found.until}, {}, found.valueAt};
-      if (std::isfinite(found.value)) moment.value = found.value;
-      out.moments.push_back(std::move(moment));
-    }
-  }
-  std::ranges::stable_sort(out.moments, {}, [](const FoundMoment& one) { return one.range.begin; });
-}
-
 /// Appends the notes of a reader that are not there yet.
 void takeNotes(const SessionReader& session, FileMoments& out) {
   for (const std::string& note : session.notes()) {
@@ -122,7 +61,7 @@ void takeNotes(const SessionReader& session, FileMoments& out) {
 }
 
 Result<void> searchFile(const std::string& path, const FindOptions& options,
-                        const Question& question, unsigned threads,
+                        std::span<const AskedQuestion> asked, unsigned threads,
                         const std::function<bool()>& goOn, FileMoments& out) {
   McapReaderOptions reading;
   reading.progress = [&goOn](double) { return goOn(); };
@@ -130,11 +69,21 @@ Result<void> searchFile(const std::string& path, const FindOptions& options,
   out.isForeign = session.isForeign();
   takeNotes(session, out);
   if (out.isForeign) return {};
-  SessionQuery query = TRY(SessionQuery::of(session, question.texts));
+  AskedQuery query = resolvedFor(session, asked);
+  out.unanswered = query.unanswered;
+  if (!query.query && !out.unanswered.empty()) {
+    return tl::unexpected(out.unanswered.front().error);
+  }
   const auto range = session.range();
-  if (!range) return {};
+  if (!query.query || !range) return {};
   std::optional<std::vector<TimeRange>> possible;
-  if (options.usesSummaries) possible = possibleTimes(session, query, options.condition, goOn);
+  if (options.usesSummaries) {
+    std::vector<std::string> conditions;
+    for (const std::size_t i : query.questions) {
+      conditions.push_back(options.questions[i].condition);
+    }
+    possible = possibleTimes(session, *query.query, conditions, goOn);
+  }
   const std::vector<TimeRange> ranges = possible.value_or(std::vector<TimeRange>{*range});
   double read = 0.0;
   for (const TimeRange& one : ranges) {
@@ -158,28 +107,32 @@ Result<void> searchFile(const std::string& path, const FindOptions& options,
         out.error = own.error();
         return;
       }
-      auto ownQuery = SessionQuery::of(*own, question.texts);
-      if (ownQuery) (void)findIn(*own, *ownQuery, question, parts[part], found[part], goOn);
+      AskedQuery ownQuery = resolvedFor(*own, asked);
+      if (ownQuery.query) (void)findIn(*own, ownQuery, asked, parts[part], found[part], goOn);
       const std::lock_guard lock(guard);
       takeNotes(*own, out);
-      if (!ownQuery) out.error = ownQuery.error();
     });
   }
-  (void)findIn(session, query, question, parts.front(), found.front(), goOn);
+  (void)findIn(session, query, asked, parts.front(), found.front(), goOn);
   for (std::thread& helper : helpers) helper.join();
   takeNotes(session, out);
   std::vector<Stretches> all = std::move(found.front());
   for (std::size_t part = 1; part < found.size(); ++part) {
     for (std::size_t c = 0; c < found[part].size(); ++c) all[c].append(found[part][c]);
   }
-  keepMoments(query, all, options, out);
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    const std::size_t question = query.questionOf(c);
+    addMoments(all[c].found(), question, asked[question], query.query->curves()[c].robot,
+               out.moments);
+  }
+  std::ranges::stable_sort(out.moments, {}, [](const FoundMoment& one) { return one.range.begin; });
   return {};
 }
 
 }  // namespace
 
-Result<void> checkCondition(const FindOptions& options) {
-  auto parsed = Expression::parse(options.condition, eachRobot);
+Result<void> checkQuestion(const MomentQuestion& question) {
+  auto parsed = Expression::parse(question.condition, eachRobot);
   if (!parsed) {
     Error error = parsed.error();
     error.message = "The condition cannot be read: " + error.message + ".";
@@ -187,12 +140,12 @@ Result<void> checkCondition(const FindOptions& options) {
   }
   const bool hasEach = std::ranges::any_of(
       parsed->variables(), [](const std::string& name) { return name.starts_with("each/"); });
-  if (!options.robots.empty() && !hasEach) {
+  if (!question.robots.empty() && !hasEach) {
     return failure(ErrorCode::InvalidArgument,
                    "The condition names its robots itself. Leave out the list of robots, or write "
                    "variables without a robot, such as VISION_BALL_DIST.");
   }
-  if (!(options.least >= 0.0)) {
+  if (!(question.least >= 0.0)) {
     return failure(ErrorCode::InvalidArgument, "The duration must not be negative.");
   }
   return {};
@@ -201,8 +154,8 @@ Result<void> checkCondition(const FindOptions& options) {
 Result<void> findMoments(std::span<const std::string> files, const FindOptions& options,
                          const std::function<bool(std::size_t file, FileMoments&& found)>& report,
                          const std::function<bool()>& goOn) {
-  TRY(checkCondition(options));
-  const Question question = questionOf(options);
+  for (const MomentQuestion& question : options.questions) TRY(checkQuestion(question));
+  const std::vector<AskedQuestion> asked = askedOf(options.questions);
   const unsigned threads =
       options.threads > 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
   const auto outer = static_cast<unsigned>(std::min<std::size_t>(threads, files.size()));
@@ -227,7 +180,7 @@ Result<void> findMoments(std::span<const std::string> files, const FindOptions& 
           file = next++;
         }
         FileMoments found;
-        if (const auto searched = searchFile(files[file], options, question, inner, mayGoOn, found);
+        if (const auto searched = searchFile(files[file], options, asked, inner, mayGoOn, found);
             !searched) {
           found.error = searched.error();
         }

@@ -113,19 +113,20 @@ Ranges timesOf(const GroupSummary& summary, std::uint32_t column, double resolut
 
 std::optional<std::vector<TimeRange>> possibleTimes(const SessionReader& session,
                                                     const SessionQuery& query,
-                                                    const std::string& condition,
+                                                    std::span<const std::string> conditions,
                                                     const std::function<bool()>& goOn) {
   // A recording that was cut off would have to be read for the rest of its summary.
   if (!session.hasSummaries() || !session.complete()) return {};
-  const std::vector<Limit> limits = limitsOf(condition);
-  if (limits.empty()) return {};
+  std::vector<std::vector<Limit>> limits;
+  for (const std::string& condition : conditions) limits.push_back(limitsOf(condition));
+  if (std::ranges::any_of(limits, &std::vector<Limit>::empty)) return {};
   Summaries summaries(session, goOn);
   Ranges out;
   for (std::size_t c = 0; c < query.curves().size(); ++c) {
     const auto variables = query.variables(c);
     const GroupId own = variables.front().second.group;
     std::optional<Ranges> ofCurve;
-    for (const Limit& limit : limits) {
+    for (const Limit& limit : limits[query.curves()[c].value]) {
       const auto found = std::ranges::find_if(
           variables, [&](const auto& one) { return one.first == limit.variable; });
       if (found == variables.end()) continue;

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,10 @@ namespace pitchboard::telemetry {
 
 /// Returns closed ranges in order of time that contain every sample at which a curve of the query
 /// can be true, and the sample after each; nothing if the session's summaries rule nothing out.
-/// `condition` is the text of each curve.
+/// `conditions` are the texts of the query, by QueryCurve::value.
 std::optional<std::vector<TimeRange>> possibleTimes(const SessionReader& session,
                                                     const SessionQuery& query,
-                                                    const std::string& condition,
+                                                    std::span<const std::string> conditions,
                                                     const std::function<bool()>& goOn);
 
 }  // namespace pitchboard::telemetry

@@ -221,49 +221,68 @@ void describe(const QueryRows& rows, const std::string& text, const Resolved& va
 }  // namespace
 
 Result<SessionQuery> SessionQuery::of(const QueryRows& rows, const QueryTexts& texts) {
-  auto impl = std::make_unique<Impl>();
-  std::vector<bool> isChosen(rows.groups().size(), texts.robots.empty());
-  for (const std::string& robot : texts.robots) {
+  std::vector<QueryText> each;
+  for (const std::string& value : texts.values) {
+    each.push_back({value, texts.condition, texts.robots});
+  }
+  return of(rows, each);
+}
+
+namespace {
+
+/// Returns the robots that have all variables of `each` in the text; one without a value if it has
+/// none of them.
+Result<std::vector<std::optional<GroupId>>> robotsFor(const QueryRows& rows,
+                                                      const QueryText& text) {
+  std::vector<bool> isChosen(rows.groups().size(), text.robots.empty());
+  for (const std::string& robot : text.robots) {
     const std::vector<GroupId> groups = TRY(rows.groupsNamed(robot));
     for (const GroupId group : groups) isChosen[group] = true;
   }
-  for (std::size_t v = 0; v < texts.values.size(); ++v) {
-    const std::array<std::string, 2> both{texts.values[v], texts.condition};
-    Error problem{ErrorCode::ParseError, {}, {}};
-    const std::set<std::string> columns = columnsOfEach(both, problem);
-    if (!problem.message.empty()) return tl::unexpected(problem);
-    std::vector<std::optional<GroupId>> robots;
-    if (columns.empty()) robots.emplace_back();
-    for (const std::size_t g : listedOrder(
-             rows.groups(), [](const GroupInfo* group) -> const GroupInfo& { return *group; })) {
-      if (columns.empty() || !isChosen[g]) continue;
-      const GroupInfo& info = *rows.groups()[g];
-      if (std::ranges::all_of(columns, [&](const std::string& column) {
-            return columnOf(info, column).has_value();
-          })) {
-        robots.emplace_back(static_cast<GroupId>(g));
-      }
+  const std::array<std::string, 2> both{text.value, text.condition};
+  Error problem{ErrorCode::ParseError, {}, {}};
+  const std::set<std::string> columns = columnsOfEach(both, problem);
+  if (!problem.message.empty()) return tl::unexpected(problem);
+  std::vector<std::optional<GroupId>> robots;
+  if (columns.empty()) robots.emplace_back();
+  for (const std::size_t g : listedOrder(
+           rows.groups(), [](const GroupInfo* group) -> const GroupInfo& { return *group; })) {
+    if (columns.empty() || !isChosen[g]) continue;
+    const GroupInfo& info = *rows.groups()[g];
+    if (std::ranges::all_of(columns, [&](const std::string& column) {
+          return columnOf(info, column).has_value();
+        })) {
+      robots.emplace_back(static_cast<GroupId>(g));
     }
-    if (robots.empty()) {
-      for (const std::string& column : columns) {
-        bool isThere = false;
-        for (std::size_t g = 0; g < rows.groups().size(); ++g) {
-          isThere = isThere || (isChosen[g] && columnOf(*rows.groups()[g], column));
-        }
-        if (!isThere) return tl::unexpected(noVariable(rows, std::string("each/") + column));
-      }
-      return failure(ErrorCode::NotFound,
-                     "No robot has all variables of \"" + texts.values[v] +
-                         (texts.condition.empty() ? "\"." : "\" and of the condition."));
+  }
+  if (!robots.empty()) return robots;
+  for (const std::string& column : columns) {
+    bool isThere = false;
+    for (std::size_t g = 0; g < rows.groups().size(); ++g) {
+      isThere = isThere || (isChosen[g] && columnOf(*rows.groups()[g], column));
     }
+    if (!isThere) return tl::unexpected(noVariable(rows, std::string("each/") + column));
+  }
+  return failure(ErrorCode::NotFound,
+                 "No robot has all variables of \"" + text.value +
+                     (text.condition.empty() ? "\"." : "\" and of the condition."));
+}
+
+}  // namespace
+
+Result<SessionQuery> SessionQuery::of(const QueryRows& rows, std::span<const QueryText> texts) {
+  auto impl = std::make_unique<Impl>();
+  for (std::size_t v = 0; v < texts.size(); ++v) {
+    const QueryText& text = texts[v];
+    const std::vector<std::optional<GroupId>> robots = TRY(robotsFor(rows, text));
     for (const std::optional<GroupId>& robot : robots) {
-      Impl::Part part{TRY(resolved(rows, texts.values[v], robot)), {}};
-      if (!texts.condition.empty()) part.condition = TRY(resolved(rows, texts.condition, robot));
+      Impl::Part part{TRY(resolved(rows, text.value, robot)), {}};
+      if (!text.condition.empty()) part.condition = TRY(resolved(rows, text.condition, robot));
       QueryCurve curve;
       curve.value = v;
       curve.isOfEach = robot.has_value();
       curve.robot = rows.groups()[robot.value_or(part.value.variables.front().group)]->name;
-      describe(rows, texts.values[v], part.value, curve);
+      describe(rows, text.value, part.value, curve);
       impl->curves.push_back(std::move(curve));
       impl->parts.push_back(std::move(part));
     }

@@ -58,6 +58,18 @@ class Stretches {
   };
   const std::vector<Found>& found() const { return m_found; }
 
+  /// Whether the last stretch goes on at the last sample.
+  bool isOpen() const { return m_isOpen; }
+  /// Ends the last stretch if its last sample is too long ago.
+  void endIfSilent(double now) { m_isOpen = m_isOpen && now - m_last <= SummaryPart::maxSilence; }
+  /// Removes and returns the stretches that have ended.
+  std::vector<Found> takeEnded() {
+    const auto end = m_found.end() - (m_isOpen ? 1 : 0);
+    std::vector<Found> out(m_found.begin(), end);
+    m_found.erase(m_found.begin(), end);
+    return out;
+  }
+
  private:
   /// Ends or begins a stretch.
   void follow(double time, bool holds) {

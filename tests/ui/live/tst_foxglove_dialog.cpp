@@ -16,6 +16,7 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <ui/base/in_place_message.h>
 #include <ui/live/foxglove_dialog.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/live_settings.h>
@@ -43,7 +44,7 @@ class TestFoxgloveDialog : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(dialog));
     auto* table = dialog->findChild<QTableWidget*>(QStringLiteral("foxgloveSources"));
     auto* address = dialog->findChild<QLineEdit*>(QStringLiteral("foxgloveAddress"));
-    auto* problem = dialog->findChild<QLabel*>(QStringLiteral("foxgloveProblem"));
+    auto* problem = dialog->findChild<InPlaceMessage*>(QStringLiteral("foxgloveProblem"));
     auto* add = dialog->findChild<QPushButton*>(QStringLiteral("addFoxglove"));
     auto* remove = dialog->findChild<QPushButton*>(QStringLiteral("removeFoxglove"));
     const auto state = [table] {

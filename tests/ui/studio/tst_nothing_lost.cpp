@@ -209,7 +209,8 @@ class TestNothingLost : public QObject {
     QVERIFY(s.window.recording()->isRecording());
     const QString second = s.window.recording()->path();
     QVERIFY(second != first);
-    QTRY_VERIFY2(s.notice().contains(second) && s.notice().contains(first), qPrintable(s.notice()));
+    QTRY_VERIFY2_WITH_TIMEOUT(s.notice().contains(second) && s.notice().contains(first),
+                              qPrintable(s.notice()), 20'000);
     QTRY_VERIFY(s.controller.frame());
     s.controller.runTo(120);
     QTRY_VERIFY_WITH_TIMEOUT(s.played(120), 20'000);

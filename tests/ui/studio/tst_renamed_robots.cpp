@@ -5,6 +5,7 @@
 #include <QDockWidget>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QMenu>
 #include <QProcess>
 #include <QRegularExpression>
 #include <QtTest>
@@ -157,6 +158,18 @@ class TestRenamedRobots : public QObject {
     dock->floatCard(uid);
     const QDockWidget* floating = dock->floating(uid);
     QVERIFY(floating);
+    auto* statistics = s.window.findChild<QMenu*>(QStringLiteral("statisticsRobotsMenu"));
+    const auto ticked = [statistics] {
+      QStringList names;
+      emit statistics->aboutToShow();
+      for (const QAction* action : statistics->actions()) {
+        if (action->isChecked()) names << action->text();
+      }
+      return names;
+    };
+    QCOMPARE(ticked(), QStringList{QStringLiteral("All robots")});
+    statistics->actions().constLast()->trigger();
+    QCOMPARE(ticked(), QStringList{QStringLiteral("Robot 3")});
     const auto group = s.live()->series()->findGroup("Robot 3");
     const double began = s.rowsOf("Robot 3")->begin;
 
@@ -185,6 +198,7 @@ class TestRenamedRobots : public QObject {
     QVERIFY(dock->floating(uid) == floating && s.cards().isEmpty());
     QCOMPARE(selection->ids(), std::vector{uid});
     QCOMPARE(selection->followed(), std::optional(uid));
+    QCOMPARE(ticked(), QStringList{QStringLiteral("R3")});
     const QModelIndex row = s.tree()->find(QStringLiteral("R3/LOCALIZATION_X"));
     QVERIFY(row.data(VariablesModel::FavouriteRole).toBool());
     const QStringList present{QStringLiteral("LOCALIZATION_X R3"),

@@ -328,11 +328,15 @@ class TestRerunPanel : public QObject {
     random.replace("import sys\n", "import random\nimport sys\n");
     random.replace("    if tick % 6 == 0:",
                    "    ints[19] = random.randrange(1000000)\n    if tick % 6 == 0:");
-    const QString file = program("random.py", random);
+    const QString file = program("chance.py", random);
     s.ask();
     s.type("rerunProgram", file);
     QTest::mouseClick(s.find<QCheckBox>("rerunCheck"), Qt::LeftButton, {}, {8, 8});
     QVERIFY(s.find<QComboBox>("rerunUnchanged")->isEnabled());
+    // What was recorded is offered.
+    QTRY_VERIFY2_WITH_TIMEOUT(
+        s.find<QComboBox>("rerunUnchanged")->currentText() == path("profile.json"),
+        qPrintable(s.find<QComboBox>("rerunUnchanged")->currentText() + s.message()), 30'000);
     s.type("rerunUnchanged", file);
     QSignalSpy finished(s.rerunner, &Rerunner::finished);
     s.click("rerunStart");

@@ -62,18 +62,19 @@ QString joined(const QList<Part>& parts) {
   return texts.join(QLatin1Char(' '));
 }
 
-/// "walk forward, fast": the last word tells it from the others of its kind, so those before it
-/// give way, the first one first. Empty for other texts, and if nothing but that word would fit.
+/// "…forward, fast": the last word tells it from the others of its kind, so those before it give
+/// way, the first one first. Empty for other texts, and if nothing but that word would fit.
 QString elidedBefore(const QFontMetricsF& metrics, const QString& text, double width) {
   static const QRegularExpression qualified(QStringLiteral("^[\\p{L} ]+, \\p{L}+$"));
   if (!qualified.match(text).hasMatch()) return {};
-  QString shown = text;
-  while (metrics.horizontalAdvance(shown) > width) {
-    const qsizetype space = shown.indexOf(QLatin1Char(' '));
-    if (space < 0 || shown[space - 1] == QLatin1Char(',')) return {};
-    shown.remove(0, space + 1);
+  QString rest = text;
+  while (true) {
+    const qsizetype space = rest.indexOf(QLatin1Char(' '));
+    if (space < 0 || rest[space - 1] == QLatin1Char(',')) return {};
+    rest.remove(0, space + 1);
+    const QString shown = QChar(0x2026) + rest;
+    if (metrics.horizontalAdvance(shown) <= width) return shown;
   }
-  return shown;
 }
 
 /// "X 117 cm, Y 32 cm": each figure needs its name, so whole items give way, the last one first.

@@ -18,7 +18,7 @@
 namespace pitchboard::ui {
 namespace {
 constexpr std::size_t maxNotices = 20;
-constexpr int successMilliseconds = 8000;
+constexpr int successMilliseconds = 8000, choiceMilliseconds = 30'000;  // with buttons
 constexpr int maxLines = 2;
 constexpr int minText = 320;  // px of the mock, beside the buttons
 }  // namespace
@@ -122,7 +122,6 @@ NoticeBar::NoticeBar(QWidget* parent)
   m_side->addLayout(m_buttons);
   m_leaving = new QTimer(this);
   m_leaving->setSingleShot(true);
-  m_leaving->setInterval(successMilliseconds);
   connect(m_leaving, &QTimer::timeout, this, [this] {
     if (tone() == NoticeTone::Success) dismiss();
   });
@@ -244,7 +243,7 @@ void NoticeBar::present() {
   const Notice& notice = m_notices.front();
   const bool success = notice.topic.tone == NoticeTone::Success;
   if (success)
-    m_leaving->start();
+    m_leaving->start(notice.buttons.empty() ? successMilliseconds : choiceMilliseconds);
   else
     m_leaving->stop();
   m_text->setSentence(notice.sentence);

@@ -16,9 +16,9 @@
 #include <algorithm>
 
 #include <ui/base/dialog_size.h>
+#include <ui/base/in_place_message.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
-#include <ui/base/theme.h>
 #include <ui/live/live_status.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/live_settings.h>
@@ -62,10 +62,9 @@ FoxgloveDialog::FoxgloveDialog(LiveController* live, QSettings* settings, QWidge
   for (int column = 0; column < StateColumn; ++column) {
     m_sources->horizontalHeader()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }
-  m_problem = new QLabel(this);
+  m_problem = new InPlaceMessage(this);
   m_problem->setObjectName(QStringLiteral("foxgloveProblem"));
-  m_problem->setWordWrap(true);
-  m_problem->hide();
+  m_problem->clear();
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   auto* add = buttons->addButton(QStringLiteral("Add"), QDialogButtonBox::ActionRole);
   add->setObjectName(QStringLiteral("addFoxglove"));
@@ -161,7 +160,7 @@ bool FoxgloveDialog::use(const std::vector<link::FoxgloveSource>& sources) {
   options.foxglove = sources;
   m_live->setOptions(options);
   saveLiveOption(*m_settings, "foxglove", options);
-  m_problem->hide();
+  m_problem->clear();
   refresh();
   return true;
 }
@@ -186,11 +185,7 @@ void FoxgloveDialog::remove() {
 }
 
 bool FoxgloveDialog::showProblem(const QString& sentence) {
-  QPalette red = m_problem->palette();
-  red.setColor(QPalette::WindowText, theme().errorText);
-  m_problem->setPalette(red);
-  m_problem->setText(sentence);
-  m_problem->show();
+  m_problem->showMessage(InPlaceMessage::Tone::Error, sentence);
   return false;
 }
 

@@ -9,6 +9,18 @@
 #include "derived_series.h"
 
 namespace pitchboard::ui {
+namespace {
+
+QString missingText(const QStringList& inputs, const PlotFeed& feed) {
+  QString names = inputs.join(QStringLiteral(", "));
+  // Words of a description that stands for a robot's curve; nobody chose that one by name.
+  names.remove(QStringLiteral("first/")).remove(QStringLiteral("each/"));
+  return (feed.source()->kind().hasPresent ? QStringLiteral("waiting for %1")
+                                           : QStringLiteral("not recorded: %1"))
+      .arg(names);
+}
+
+}  // namespace
 
 Curve::Curve(const CurveSpec& spec) {
   setSpec(spec);
@@ -38,6 +50,7 @@ void Curve::update(PlotFeed& feed) {
                       feed.time()->range());
     m_view = m_derived->view();
     m_note = m_derived->note();
+    if (!m_derived->missing().isEmpty()) m_note = missingText(m_derived->missing(), feed);
     m_faulty = m_derived->isFaulty();
     return;
   }
@@ -45,12 +58,7 @@ void Curve::update(PlotFeed& feed) {
   const bool two = m_spec.inputs.size() > 1;
   m_ordinate = two ? feed.find(m_spec.inputs[1]) : ColumnView{};
   if (two && !m_ordinate) m_view = {};
-  if (!m_view) {
-    QString names = m_spec.inputs.join(QStringLiteral(", "));
-    // Words of a description that stands for a robot's curve; nobody chose that one by name.
-    names.remove(QStringLiteral("first/")).remove(QStringLiteral("each/"));
-    m_note = QStringLiteral("waiting for %1").arg(names);
-  }
+  if (!m_view) m_note = missingText(m_spec.inputs, feed);
 }
 
 ColumnView Curve::compared(PlotFeed& feed) {

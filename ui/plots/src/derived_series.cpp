@@ -270,22 +270,19 @@ void DerivedSeries::start(std::vector<ColumnView> views, double until) {
 
 void DerivedSeries::update(const Lookup& find, quint64 generation, telemetry::TimeRange shown) {
   m_note = m_work->fault;
+  m_missing.clear();
   if (isFaulty()) return;
   std::vector<ColumnView> views;
-  QStringList missing;
   for (const QString& input : m_work->inputs) {
     views.push_back(find(input));
-    if (!views.back()) missing << input;
-  }
-  if (!missing.isEmpty()) {
-    m_note = QStringLiteral("waiting for %1").arg(missing.join(QStringLiteral(", ")));
+    if (!views.back()) m_missing << input;
   }
   const auto newest = [&views](std::size_t i) {
     const auto range = views[i].group->range();
     return range ? range->end : -infinity;
   };
   const bool stale = m_work->generation != generation;
-  const bool wentBack = !m_work->running && !m_work->stretch && missing.isEmpty() &&
+  const bool wentBack = !m_work->running && !m_work->stretch && m_missing.isEmpty() &&
                         (newest(0) < m_work->done || m_work->isRewritten(views[0]));
   if (stale || wentBack) {
     // Another source, or one that was put back: nothing computed so far holds.
@@ -294,7 +291,7 @@ void DerivedSeries::update(const Lookup& find, quint64 generation, telemetry::Ti
     m_next.reset();
     m_work = fresh(generation);
   }
-  if (!missing.isEmpty() || views.empty()) return;
+  if (!m_missing.isEmpty() || views.empty()) return;
   constexpr telemetry::TimeRange everything{-infinity, infinity};
   const bool paged = std::ranges::any_of(
       views, [&](const ColumnView& view) { return !view.group->hasEveryRow(everything); });

@@ -28,7 +28,9 @@ class DerivedSeries {
   void update(const Lookup& find, quint64 generation, telemetry::TimeRange shown);
   /// What is ready; nothing while an input is missing or the description is wrong.
   ColumnView view() const;
-  /// A sentence for the legend when there is nothing to see.
+  /// Inputs that there are not, by name.
+  const QStringList& missing() const { return m_missing; }
+  /// A sentence for the legend when there is nothing to see although nothing is missing.
   QString note() const { return m_note; }
   /// The description can never work: an expression with an error.
   bool isFaulty() const;
@@ -46,6 +48,7 @@ class DerivedSeries {
   std::shared_ptr<Work> m_work;
   std::shared_ptr<Work> m_next;  // of another stretch; takes the place of m_work once it is done
   QString m_note;
+  QStringList m_missing;
 };
 
 }  // namespace pitchboard::ui

@@ -181,8 +181,10 @@ void LanePane::paintLanes(QPainter& painter) const {
     if (!curve.isWaiting()) {
       const double used = textLineWidth(painter.font(), text) + scaled(this, 8);
       painter.setPen(colors.secondaryText);
-      drawTextLine(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                   curve.valueTextAt(m_feed->time()->readAt()));
+      if (m_feed->showsValues()) {
+        drawTextLine(painter, name.adjusted(used, 0, 0, 0), Qt::AlignLeft | Qt::AlignVCenter,
+                     curve.valueTextAt(m_feed->time()->readAt()));
+      }
       if (curve.view().group->isReading(axis.shown)) {
         drawTextLine(painter, name, Qt::AlignRight | Qt::AlignVCenter, QStringLiteral("reading…"));
       }

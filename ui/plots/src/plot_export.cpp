@@ -6,6 +6,7 @@
 #include <QRegularExpression>
 #include <QSaveFile>
 #include <QSvgGenerator>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,10 @@
 #include <ui/base/picture_bytes.h>
 #include <ui/base/save_file.h>
 #include <ui/plots/axis_ticks.h>
+#include <ui/plots/film_curves.h>
+#include <ui/plots/plots_dock.h>
 
+#include "plot_feed.h"
 #include "plot_page.h"
 
 namespace pitchboard::ui {
@@ -95,6 +99,23 @@ QImage plotPicture(PlotPage& page, double ratio) {
   return image;
 }
 
+FilmCurves filmCurves(const PlotsDock& plots, int width) {
+  PlotPage* page = plots.currentPage();
+  if (page == nullptr || page->panes().isEmpty() || page->picture()->width() <= 0) return {};
+  const double ratio = std::max(1.0, static_cast<double>(width) / page->picture()->width());
+  const auto showValues = [&plots, page](bool on) {
+    plots.feed()->setShowsValues(on);
+    for (PlotPane* pane : page->panes()) pane->showValues();
+  };
+  showValues(false);
+  FilmCurves curves{plotPicture(*page, ratio), page->pictureAxis()};
+  showValues(true);
+  curves.picture.setDevicePixelRatio(1.0);
+  curves.axis.left *= ratio;
+  curves.axis.width *= ratio;
+  return curves;
+}
+
 QByteArray plotPng(PlotPage& page) {
   return pictureBytes(plotPicture(page, pngRatio));
 }
@@ -164,8 +185,9 @@ Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange ran
   for (const PlotPane* pane : panes) {
     for (const Curve& curve : pane->curves()) {
       if (curve.isWaiting() || curve.view().group->hasEveryRow(range)) continue;
-      return failure(ErrorCode::Unsupported,
-                     "This range is not in memory. Zoom in and try again, or use File > Export.");
+      return failure(
+          ErrorCode::Unsupported,
+          "This range is not in memory. Zoom in and try again, or use Timeline > Export….");
     }
   }
   QSaveFile file(path);

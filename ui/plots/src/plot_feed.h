@@ -62,6 +62,9 @@ class PlotFeed : public QObject {
   /// day.
   const std::optional<QDateTime>& clock() const { return m_clock; }
   void setClock(const std::optional<QDateTime>& clock) { m_clock = clock; }
+  /// Whether legends have the values of the moment; not in a picture that stands for many moments.
+  bool showsValues() const { return m_showsValues; }
+  void setShowsValues(bool on) { m_showsValues = on; }
   /// Formats seconds of the source as "05:03.250" or as a time of day.
   QString timeText(double time, int decimals) const;
   /// Increases when variables were added or removed; results of find() are then out of date.
@@ -134,6 +137,7 @@ class PlotFeed : public QObject {
   std::vector<QStringList> m_firstAsked;  // columns, while it is empty
   bool m_missed = false;                  // a curve waits for a missing variable
   std::optional<QDateTime> m_clock;
+  bool m_showsValues = true;
   std::shared_ptr<const telemetry::SeriesStore> m_compared;
   quint64 m_comparedGeneration = 0;
   double m_comparedOffset = 0.0, m_comparedFrom = 0.0;

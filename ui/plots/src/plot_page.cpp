@@ -351,6 +351,12 @@ TimeAxis PlotPage::timeAxis() const {
           static_cast<double>(right - m_left)};
 }
 
+TimeAxis PlotPage::pictureAxis() const {
+  TimeAxis axis = timeAxis();
+  axis.left += m_scroll->geometry().left();
+  return axis;
+}
+
 void PlotPage::placeLines() {
   const bool hinting = m_lines->hint().has_value();
   m_lines->setGeometry(hinting ? m_stack->rect() : m_scroll->geometry());

@@ -47,6 +47,8 @@ class PlotPage : public QWidget {
   MarksPanel* marksPanel() const { return m_marks; }
   /// What a picture of the page shows: the plots with their marks, without the table.
   QWidget* picture() const { return m_stack; }
+  /// The time axis in the pixels of picture().
+  TimeAxis pictureAxis() const;
   /// While on, nothing is drawn that only makes sense on the screen: pointer, moment, scroll bar,
   /// the handles between plots.
   void setForPicture(bool on);

@@ -203,7 +203,7 @@ LegendEntry PlotPane::legendEntry(std::size_t index) const {
     entry.text = entry.faulty ? entry.text + QStringLiteral(": ") + curve.note() : curve.note();
     return entry;
   }
-  entry.value = curve.valueTextAt(m_feed->time()->readAt());
+  if (m_feed->showsValues()) entry.value = curve.valueTextAt(m_feed->time()->readAt());
   const AxisPlan::Place& place = m_axes.places[index];
   const bool chart = kind() == PaneKind::Chart;
   QStringList side;

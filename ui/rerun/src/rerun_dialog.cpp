@@ -297,7 +297,7 @@ void RerunDialog::showPrograms() {
         }
       }
     }
-    const QString usual = hasReference(process) ? ourProgram : QString();
+    const QString usual = box == m_program && hasReference(process) ? ourProgram : QString();
     box->setEditText(before.isEmpty() ? usual : before);
   }
   planSoon();
@@ -316,7 +316,11 @@ Result<RerunOrder> RerunDialog::order() const {
   link::RerunOptions& options = order.options;
   options.robot = m_robot->currentText().toStdString();
   const std::string process = m_process->currentText().toStdString();
-  options.processes = {{process, m_program->currentText().trimmed().toStdString()}};
+  const auto programIn = [this](const QComboBox* box) {
+    return link::besideRecording(box->currentText().trimmed().toStdString(),
+                                 m_recording.toStdString());
+  };
+  options.processes = {{process, programIn(m_program)}};
   for (const QString& one : m_writes->text().split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
     options.writes.push_back(one.toStdString());
   }
@@ -341,12 +345,7 @@ Result<RerunOrder> RerunDialog::order() const {
   }
   options.speed = m_speed->currentData().toDouble();
   if (m_check->isChecked()) {
-    const std::string unchanged = m_unchanged->currentText().trimmed().toStdString();
-    if (unchanged.empty()) {
-      return failure(ErrorCode::InvalidArgument,
-                     "To check reproducibility, say which program is the unchanged one.");
-    }
-    order.unchanged = link::RerunProcess{process, unchanged};
+    order.unchanged = link::RerunProcess{process, programIn(m_unchanged)};
   }
   return order;
 }
@@ -354,6 +353,8 @@ Result<RerunOrder> RerunDialog::order() const {
 void RerunDialog::planSoon() {
   ++m_plans;
   m_plan.start();
+  m_canRun = true;  // as far as is known
+  m_start->setEnabled(m_parts.rerunner->whyNot().isEmpty());
 }
 
 void RerunDialog::plan() {
@@ -398,17 +399,27 @@ void RerunDialog::showPlan(const Result<link::RerunPlan>& plan) {
           QStringLiteral("Everything that %1 reads was recorded.").arg(m_process->currentText()));
     }
     m_notes->setText(notes.join(QLatin1Char('\n')));
+    const QString recorded = QString::fromStdString(plan->recorded);
+    if (m_unchanged->currentText() == m_proposed) m_unchanged->setEditText(recorded);
+    m_proposed = recorded;
     if (!m_started) showMessage({}, false);
   } else {
     m_notes->clear();
-    if (!m_started) showMessage(QString::fromStdString(plan.error().text()), true);
+    if (!m_started) showMessage(QString::fromStdString(plan.error().message), true);
   }
+  m_canRun = plan.has_value();
+  showState();
   emit planned();
 }
 
 void RerunDialog::start() {
   const auto wanted = order();
   if (!wanted) return showMessage(QString::fromStdString(wanted.error().text()), true);
+  if (wanted->unchanged && wanted->unchanged->program.empty()) {
+    return showMessage(QStringLiteral("To check reproducibility, say which program is the "
+                                      "unchanged one."),
+                       true);
+  }
   if (m_parts.settings != nullptr) {
     QStringList recent = m_parts.settings->value(recentProgramsKey).toStringList();
     const auto isOurs = [](const QString& program) {
@@ -438,7 +449,7 @@ void RerunDialog::showState() {
   }
   const bool running = rerunner.isRunning();
   m_start->setText(running ? QStringLiteral("Cancel") : QStringLiteral("Run"));
-  m_start->setEnabled(running || rerunner.whyNot().isEmpty());
+  m_start->setEnabled(running || (m_canRun && rerunner.whyNot().isEmpty()));
   m_progress->setVisible(running);
   m_progress->setFormat(rerunner.isChecking() ? QStringLiteral("Checking reproducibility: %p %")
                                               : QStringLiteral("%p %"));
@@ -453,6 +464,7 @@ void RerunDialog::showState() {
   m_unchanged->setEnabled(!running && m_check->isChecked());
   if (running || !m_started || rerunner.problem().isEmpty() || !isVisible()) return;
   showMessage(rerunner.problem(), true);
+  m_started = false;
 }
 
 void RerunDialog::showMessage(const QString& sentence, bool bad) {

@@ -96,6 +96,7 @@ class RerunDock : public QWidget {
     m_from->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     m_from->addItem(QStringLiteral("From the recording"));
     m_from->addItem(QStringLiteral("Since the last run"));
+    m_from->setMinimumContentsLength(static_cast<int>(m_from->itemText(0).size()));
     connect(m_from, &QComboBox::currentIndexChanged, this, &RerunDock::showList);
     m_words->setObjectName(QStringLiteral("rerunFilter"));
     m_words->setPlaceholderText(QStringLiteral("Filter by words"));
@@ -266,7 +267,8 @@ class RerunDock : public QWidget {
         : result && result->sinceLast && from() == DifferencesFrom::LastRun
             ? QStringLiteral("The last run gave the same outputs.")
         : result
-            ? QStringLiteral("The outputs are the recorded ones.")
+            ? result->unchangedToo() > 0 ? QStringLiteral("Every difference was left out.")
+                                         : QStringLiteral("The outputs are the recorded ones.")
             : QStringLiteral(
                   "Would a changed program decide differently? “Rerun with…” runs a recording "
                   "through a robot's process again, and lists here where its outputs differ."));

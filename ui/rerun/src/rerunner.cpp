@@ -20,8 +20,9 @@ namespace {
 constexpr int lookMilliseconds = 200;
 const QString rerunSuffix = QStringLiteral(" rerun");
 
+/// Without names of options, which nobody typed here.
 QString rerunErrorText(const Error& error) {
-  return QString::fromStdString(error.text());
+  return QString::fromStdString(error.context.starts_with("--") ? error.message : error.text());
 }
 
 }  // namespace
@@ -133,6 +134,7 @@ Rerunner::Made Rerunner::make(const std::string& path, RerunOrder order, const s
     link::RerunOptions same = order.options;
     same.processes = {*order.unchanged};
     same.unchanged.clear();
+    same.isUnchanged = true;
     const auto found = link::rerun(*session, same);
     if (!found) return failed(found.error());
     const auto kept = link::keepUnchanged(path, order.options, *found);

@@ -303,7 +303,13 @@ void RobotsDock::unfloat(RobotUid id) {
 }
 
 void RobotsDock::showSelection() {
-  for (const auto& [id, card] : m_cards) card->setSelected(m_context.selection->contains(id));
+  const std::vector<RobotUid>& chosen = m_context.selection->ids();
+  for (const auto& [id, card] : m_cards) {
+    card->setSelected(m_context.selection->contains(id));
+    if (!chosen.empty() && id == chosen.back() && widget()->isAncestorOf(card)) {
+      ensureWidgetVisible(card, 0, 0);
+    }
+  }
 }
 
 void RobotsDock::setAllCollapsed(bool collapsed) {

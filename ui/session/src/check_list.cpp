@@ -2,6 +2,7 @@
 #include "check_list.h"
 
 #include <QHBoxLayout>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QToolButton>
@@ -18,7 +19,10 @@ constexpr int fewest = 2, most = 5;  // rows that are seen; more are scrolled to
 }  // namespace
 
 CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidget* parent)
-    : QWidget(parent), m_filter(new QLineEdit(this)), m_list(new QListWidget(this)) {
+    : QWidget(parent),
+      m_filter(new QLineEdit(this)),
+      m_list(new QListWidget(this)),
+      m_count(new QLabel(this)) {
   m_filter->setPlaceholderText(placeholder);
   m_filter->setClearButtonEnabled(true);
   for (const QString& name : names) {
@@ -31,7 +35,10 @@ CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidg
   const int rowHeight = m_list->count() > 0 ? m_list->sizeHintForRow(0) : scaled(this, 18);
   m_list->setFixedHeight(rows * rowHeight + 2 * m_list->frameWidth());
   auto* row = new QHBoxLayout;
+  m_count->setFont(themeFont(TypeRole::Secondary));
+  m_count->setObjectName(QStringLiteral("ticked"));
   row->addWidget(m_filter, 1);
+  row->addWidget(m_count);
   for (const bool on : {true, false}) {
     auto* button = new QToolButton(this);
     button->setText(on ? QStringLiteral("All") : QStringLiteral("None"));
@@ -48,6 +55,8 @@ CheckList::CheckList(const QStringList& names, const QString& placeholder, QWidg
   column->addWidget(m_list);
   setFocusProxy(m_filter);
   connect(m_filter, &QLineEdit::textChanged, this, &CheckList::filter);
+  connect(m_list, &QListWidget::itemChanged, this, &CheckList::count);
+  count();
 }
 
 QStringList CheckList::checked() const {
@@ -71,6 +80,10 @@ void CheckList::setChecked(const QStringList& names) {
     QListWidgetItem* item = m_list->item(i);
     item->setCheckState(names.contains(item->text()) ? Qt::Checked : Qt::Unchecked);
   }
+}
+
+void CheckList::count() {
+  m_count->setText(QStringLiteral("%1 of %2").arg(checked().size()).arg(m_list->count()));
 }
 
 void CheckList::filter(const QString& text) {

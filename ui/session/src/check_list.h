@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Names to be ticked, with a filter and all or none of what it shows at once. UI thread only.
+// Names to be ticked, with a filter, all or none of what it shows at once, and how many
+// of all are ticked. UI thread only.
 
 #include <QStringList>
 #include <QWidget>
 
+class QLabel;
 class QLineEdit;
 class QListWidget;
 
@@ -26,9 +28,11 @@ class CheckList : public QWidget {
  private:
   void filter(const QString& text);
   void checkShown(bool on);
+  void count();
 
   QLineEdit* m_filter;
   QListWidget* m_list;
+  QLabel* m_count;
 };
 
 }  // namespace pitchboard::ui

@@ -70,6 +70,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
       m_clock(new QCheckBox(QStringLiteral("Time of day beside each time"), this)),
       m_size(new QComboBox(this)),
       m_rate(new QSpinBox(this)),
+      m_cameras(new QCheckBox(QStringLiteral("Cameras of the panel Video"), this)),
+      m_curves(new QCheckBox(QStringLiteral("Plots as they are shown"), this)),
       m_rows(new QFormLayout),
       m_progress(new QProgressBar(this)),
       m_message(new QLabel(this)),
@@ -84,6 +86,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_size->setObjectName(QStringLiteral("exportSize"));
   m_begin->setObjectName(QStringLiteral("exportBegin"));
   m_end->setObjectName(QStringLiteral("exportEnd"));
+  m_cameras->setObjectName(QStringLiteral("exportCameras"));
+  m_curves->setObjectName(QStringLiteral("exportCurves"));
   m_rate->setObjectName(QStringLiteral("exportRate"));
   m_progress->setObjectName(QStringLiteral("exportProgress"));
   for (const ExportForm& form : exportForms()) m_format->addItem(QString::fromUtf8(form.title));
@@ -92,7 +96,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
     const QSize made = m_pictures != nullptr ? m_pictures->pictureSize(size) : size;
     m_size->addItem(QStringLiteral("%1 × %2").arg(made.width()).arg(made.height()), size);
   }
-  m_size->setToolTip(QStringLiteral("The picture has the shape of the field."));
+  m_size->setToolTip(QStringLiteral(
+      "The picture has the shape of the field, unless something is shown beside it."));
   m_rate->setRange(1, 60);
   m_rate->setValue(30);
   m_rate->setSuffix(QStringLiteral(" frames per second"));
@@ -115,6 +120,8 @@ ExportDialog::ExportDialog(ExportSource source, telemetry::TimeRange range,
   m_rows->addRow(QString(), m_clock);
   m_rows->addRow(QStringLiteral("Size"), m_size);
   m_rows->addRow(QStringLiteral("Rate"), m_rate);
+  m_rows->addRow(QStringLiteral("Beside the field"), m_cameras);
+  m_rows->addRow(QString(), m_curves);
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   m_export = buttons->addButton(QStringLiteral("Export…"), QDialogButtonBox::ActionRole);
   m_export->setObjectName(QStringLiteral("exportButton"));
@@ -170,6 +177,9 @@ void ExportDialog::showRows() {
   m_rows->setRowVisible(m_clock, table && m_source.clock.has_value());
   m_rows->setRowVisible(m_size, picture || kind == ExportKind::Video);
   m_rows->setRowVisible(m_rate, kind == ExportKind::Video);
+  m_rows->setRowVisible(m_cameras, kind == ExportKind::Video && !m_source.film.cameras.empty());
+  m_rows->setRowVisible(m_curves,
+                        kind == ExportKind::Video && !m_source.film.curves.picture.isNull());
   // As high as its rows.
   layout()->activate();
   resize(width(), std::min(dialogSize(this, 420, 4000).height(),
@@ -285,12 +295,16 @@ void ExportDialog::writeVideo(const ExportRequest& request) {
   });
   VideoOptions options;
   options.path = request.path;
-  options.size = m_pictures->pictureSize(m_size->currentData().toSize());
+  FilmParts parts;
+  if (m_cameras->isChecked()) parts.cameras = m_source.film.cameras;
+  if (m_curves->isChecked()) parts.curves = m_source.film.curves;
+  options.size = m_size->currentData().toSize();
+  if (parts.isEmpty()) options.size = m_pictures->pictureSize(options.size);
   options.framesPerSecond = m_rate->value();
   options.overwrite = true;
   const auto range = request.selection.range;
   if (const auto started = m_video->start(request.session, {range.begin, range.end},
-                                          request.selection.robots, options);
+                                          request.selection.robots, options, std::move(parts));
       !started) {
     setWriting(false);
     fail(QString::fromStdString(started.error().text()));

@@ -4,8 +4,11 @@
 #include <QDir>
 #include <QFileInfo>
 #include <QProgressDialog>
+#include <utility>
+#include <vector>
 
 #include <robotlink/import/import_session.h>
+#include <robotlink/session/join_recording.h>
 #include <ui/base/cache_folder.h>
 
 namespace pitchboard::ui {
@@ -36,7 +39,34 @@ void RecordingImport::showProgress(const QString& path) {
           [cancelled = m_cancelled] { *cancelled = true; });
 }
 
+namespace {
+
+QStringList sentencesOf(const std::vector<std::string>& notes) {
+  QStringList sentences;
+  for (const std::string& note : notes) sentences << QString::fromStdString(note);
+  return sentences;
+}
+
+}  // namespace
+
 void RecordingImport::start(const QString& path) {
+  run(path, [from = path.toStdString()](const std::string& to, const auto& progress) {
+    return link::importRecordings({from}, to, {}, progress).map([](const auto& report) {
+      return sentencesOf(report.notes);
+    });
+  });
+}
+
+void RecordingImport::join(const QString& session, const QString& recording) {
+  run(recording, [session = session.toStdString(), recording = recording.toStdString()](
+                     const std::string& to, const auto& progress) {
+    return link::joinRecording(session, recording, to, {}, progress).map([](const auto& report) {
+      return sentencesOf({report.summary() + '.'});
+    });
+  });
+}
+
+void RecordingImport::run(const QString& path, Work work) {
   if (m_cancelled) *m_cancelled = true;
   if (!m_folder) m_folder = makeCacheFolder(QStringLiteral("import"));
   m_cancelled = std::make_shared<std::atomic<bool>>(false);
@@ -47,33 +77,30 @@ void RecordingImport::start(const QString& path) {
   const QString name =
       QFileInfo(path).isDir() ? QDir(path).dirName() : QFileInfo(path).completeBaseName();
   const QString to = folder.filePath(name + QStringLiteral(".mcap"));
-  m_worker.start([this, path, to, cancelled = m_cancelled] {
+  m_worker.start([this, path, to, work = std::move(work), cancelled = m_cancelled] {
     int shown = -1;
-    const auto report =
-        link::importRecordings({path.toStdString()}, to.toStdString(), {}, [&](double share) {
-          const int percent = static_cast<int>(share * 100.0);
-          if (percent != shown) {
-            shown = percent;
-            m_toUi.post([this, percent, cancelled] {
-              if (cancelled == m_cancelled && m_dialog) m_dialog->setValue(percent);
-            });
-          }
-          return !*cancelled;
+    const auto notes = work(to.toStdString(), [&](double share) {
+      const int percent = static_cast<int>(share * 100.0);
+      if (percent != shown) {
+        shown = percent;
+        m_toUi.post([this, percent, cancelled] {
+          if (cancelled == m_cancelled && m_dialog) m_dialog->setValue(percent);
         });
-    m_toUi.post([this, report, path, to, cancelled] {
+      }
+      return !*cancelled;
+    });
+    m_toUi.post([this, notes, path, to, cancelled] {
       if (cancelled != m_cancelled) return;  // another one was started
       m_cancelled.reset();
       delete m_dialog;
       if (*cancelled) return;
-      if (!report) {
+      if (!notes) {
         emit failed(
             QStringLiteral("Could not import %1: %2")
-                .arg(QFileInfo(path).fileName(), QString::fromStdString(report.error().message)));
+                .arg(QFileInfo(path).fileName(), QString::fromStdString(notes.error().message)));
         return;
       }
-      QStringList notes;
-      for (const std::string& note : report->notes) notes << QString::fromStdString(note);
-      emit imported(path, to, notes);
+      emit imported(path, to, *notes);
     });
   });
 }

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Imports a recording of another program in the background, into a session in a temporary folder
-// that lives as long as this object. A dialog shows the progress and can cancel. Owned by
-// SessionFiles; UI thread only.
+// Imports a recording of another program, or joins that of a robot to a session, in the background,
+// into a session in a temporary folder that lives as long as this object. A dialog shows the
+// progress and can cancel. Owned by SessionFiles; UI thread only.
 
 #include <QObject>
 #include <QPointer>
+#include <QStringList>
 #include <QTemporaryDir>
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <string>
 
+#include <base/result.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 
@@ -30,6 +34,8 @@ class RecordingImport : public QObject {
   static bool isOfOthers(const QString& path);
   /// Imports a file or folder; an import that runs is cancelled.
   void start(const QString& path);
+  /// Joins what a robot recorded itself to a session, in the same way.
+  void join(const QString& session, const QString& recording);
 
  signals:
   /// The session is made. `notes` say what was not understood.
@@ -37,6 +43,10 @@ class RecordingImport : public QObject {
   void failed(const QString& sentence);
 
  private:
+  /// Writes the session `to` on the worker's thread and returns sentences about it.
+  using Work = std::function<Result<QStringList>(const std::string& to,
+                                                 const std::function<bool(double)>& progress)>;
+  void run(const QString& path, Work work);
   void showProgress(const QString& path);
 
   QWidget* m_window;

@@ -4,6 +4,7 @@
 #include <QDragEnterEvent>
 #include <QFileInfo>
 #include <QMimeData>
+#include <algorithm>
 #include <utility>
 
 #include <telemetry/session/session_repair.h>
@@ -17,10 +18,13 @@
 #include <ui/sources/scenario_behind.h>
 #include <ui/sources/shown_moment.h>
 
+#include "follow_dialog.h"
 #include "recording_import.h"
 
 namespace pitchboard::ui {
 namespace {
+
+using Poses = link::MomentOptions::Poses;
 
 const QString suffix = QStringLiteral("mcap");
 
@@ -161,7 +165,7 @@ void SessionFiles::showImported(const QString& recording, const QString& session
                                 const QStringList& notes) {
   QString text = QStringLiteral(
                      "%1 was imported. The session is temporary: keep it with "
-                     "File > Export.")
+                     "Timeline > Export….")
                      .arg(QFileInfo(recording).fileName());
   if (!notes.isEmpty()) text += QLatin1Char(' ') + shortened(notes);
   m_notices->show({importTopic}, text);
@@ -180,6 +184,11 @@ void SessionFiles::open(const QString& path) {
 void SessionFiles::askAndOpen() {
   const QString path = askForFile(QStringLiteral("Open session"));
   if (!path.isEmpty()) open(path);
+}
+
+void SessionFiles::askAndJoin() {
+  const QString path = askForFile(QStringLiteral("Add recording of a robot"));
+  if (!path.isEmpty()) m_import->join(m_replay->path(), path);
 }
 
 QString SessionFiles::askForFile(const QString& title) {
@@ -233,25 +242,76 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void SessionFiles::simulateFromHere(link::MomentOptions::Poses poses) {
+  simulateFrom(m_shown->frame(), poses, {});
+}
+
+void SessionFiles::askAndFollow() {
   const FramePtr frame = m_shown->frame();
+  if (!frame || frame->robots.empty()) return simulateFrom(frame, Poses::True, {});
+  QStringList names{QStringLiteral("ball")}, opponents = names;
+  const TeamColor ours = frame->robots.front().identity.team;
+  for (const link::RobotFrame& robot : frame->robots) {
+    names << QString::fromStdString(robot.identity.name());
+    if (robot.identity.team != ours) opponents << names.back();
+  }
+  auto* dialog = new FollowDialog(
+      names, opponents, m_window, [this, frame](const QStringList& who, double reach) {
+        link::FollowOptions follow;
+        for (const QString& name : who) follow.who.push_back(name.toStdString());
+        follow.reach = reach;
+        simulateFrom(frame, frame->truthKnown ? Poses::True : Poses::Believed, follow);
+      });
+  dialog->open();
+}
+
+/// Returns what follows that frame, of the source that is shown; null if it does not tell.
+Result<std::shared_ptr<const link::FollowedRecording>> SessionFiles::recordingAfter(
+    const link::MatchFrame& frame, const link::Scenario& scenario,
+    link::FollowOptions options) const {
+  if (options.who.empty()) return nullptr;
+  constexpr double longest = 60.0;  // s
+  const FrameSource* source = m_shown->source();
+  const auto range = source->available();
+  options.from = frame.snapshot.time;
+  options.until = std::min(range ? range->end : options.from, options.from + longest);
+  auto recording = link::recordingToFollow([source](double time) { return source->frameAt(time); },
+                                           scenario, options);
+  if (!recording) return tl::unexpected(recording.error());
+  return std::make_shared<const link::FollowedRecording>(std::move(*recording));
+}
+
+void SessionFiles::simulateFrom(const FramePtr& frame, Poses poses,
+                                const link::FollowOptions& follow) {
+  const auto refuse = [this](const QString& why) {
+    m_notices->show({simulateTopic}, QStringLiteral("Cannot simulate from here: %1").arg(why));
+  };
   if (!frame || frame->robots.empty()) {
-    m_notices->show({simulateTopic},
-                    QStringLiteral("Cannot simulate from here: no robot is on the field."));
-    return;
+    return refuse(QStringLiteral("no robot is on the field."));
   }
   link::MomentOptions options;
   options.poses = poses;
   options.catalog = &m_controller->catalog();
-  options.ball = poses == link::MomentOptions::Poses::True ? link::MomentOptions::Ball::True
-                                                           : link::MomentOptions::Ball::Perceived;
+  options.ball =
+      poses == Poses::True ? link::MomentOptions::Ball::True : link::MomentOptions::Ball::Perceived;
   const auto base = scenarioBehind(*m_shown, *m_controller, *m_replay);
   if (base) options.base = &*base;
   const link::MomentScenario moment = link::scenarioFromMoment(*frame, options);
+  const auto recording = recordingAfter(*frame, moment.scenario, follow);
+  if (!recording) return refuse(QString::fromStdString(recording.error().message));
   m_shown->goLive();
   m_shown->choose(m_controller);
   const QString when = clockText(frame->snapshot.time);
+  // Paused until it follows: not a tick is played freely.
   m_controller->edits()->replaceMatch(moment.scenario, QStringLiteral("Simulate from %1").arg(when),
-                                      QStringLiteral("Simulating from %1").arg(when), false);
+                                      QStringLiteral("Simulating from %1").arg(when),
+                                      *recording != nullptr);
+  if (*recording) {
+    m_controller->post([recording = *recording](link::SimulatedMatch& match) {
+      match.follow(recording);
+      return link::Changed::No;
+    });
+    m_controller->setPaused(false);
+  }
   QStringList notes;
   for (const std::string& note : moment.notes) notes << QString::fromStdString(note);
   m_notices->settle(simulateTopic);

@@ -6,6 +6,8 @@
 
 #include <robotlink/session/recorded_frame.h>
 
+#include "film_layout.h"
+
 namespace pitchboard::ui {
 
 struct VideoExport::Reader {
@@ -14,6 +16,7 @@ struct VideoExport::Reader {
   std::optional<telemetry::SessionReader> session;
   std::optional<link::RecordedFrames> frames;
   std::string problem;
+  std::atomic<bool> cancelled = false;
 
   FramePtr frameAt(double time) {
     if (!session) {
@@ -54,8 +57,8 @@ VideoExport::~VideoExport() {
 }
 
 Result<void> VideoExport::start(const QString& session, telemetry::TimeRange range,
-                                const std::vector<std::string>& robots,
-                                const VideoOptions& options) {
+                                const std::vector<std::string>& robots, const VideoOptions& options,
+                                FilmParts parts) {
   if (!(range.end >= range.begin) || !std::isfinite(range.end - range.begin)) {
     return tl::unexpected(Error{ErrorCode::InvalidArgument, "the range ends before it begins", {}});
   }
@@ -70,7 +73,8 @@ Result<void> VideoExport::start(const QString& session, telemetry::TimeRange ran
   m_pictures = static_cast<qint64>((range.end - range.begin) * m_rate) + 1;
   m_drawn = 0;
   m_reading = false;
-  m_frame.reset();
+  m_moment.reset();
+  m_parts = std::move(parts);
   ++m_job;
   read();
   return {};
@@ -78,46 +82,62 @@ Result<void> VideoExport::start(const QString& session, telemetry::TimeRange ran
 
 void VideoExport::cancel() {
   ++m_job;
+  if (m_reader) m_reader->cancelled = true;
   m_reader.reset();
-  m_frame.reset();
+  m_moment.reset();
   m_writer.cancel();
 }
 
 void VideoExport::read() {
-  if (m_reading || m_frame || !m_reader) return;
+  if (m_reading || m_moment || !m_reader) return;
   const qint64 number = m_drawn;
   if (number >= m_pictures) return;
   m_reading = true;
   const double time = m_range.begin + static_cast<double>(number) / m_rate;
-  m_worker.start([this, reader = m_reader, time, job = m_job] {
-    FramePtr frame = reader->frameAt(time);
-    m_toUi.post([this, frame, job, problem = reader->problem] {
+  m_worker.start([this, reader = m_reader, time, job = m_job, cameras = m_parts.cameras,
+                  rooms = filmLayout(m_writer.size(), m_parts.cameras.size(),
+                                     !m_parts.curves.picture.isNull())
+                              .cameras] {
+    Moment moment{reader->frameAt(time), {}, time};
+    for (std::size_t i = 0; moment.frame && i < cameras.size(); ++i) {
+      moment.cameras.push_back(
+          cameras[i].picture(time, rooms[i].size(), [&reader] { return !reader->cancelled; }));
+    }
+    m_toUi.post([this, moment = std::move(moment), job, problem = reader->problem] {
       if (job != m_job) return;
       m_reading = false;
-      if (!frame) {
+      if (!moment.frame) {
         cancel();
         emit failed(
             QStringLiteral("Could not read the session: %1").arg(QString::fromStdString(problem)));
         return;
       }
-      m_frame = frame;
+      m_moment = moment;
       next();
     });
   });
 }
 
 void VideoExport::next() {
-  if (!m_reader || !m_frame || !m_writer.ready()) return;
-  const FramePtr frame = std::exchange(m_frame, nullptr);
+  if (!m_reader || !m_moment || !m_writer.ready()) return;
+  const Moment moment = *std::exchange(m_moment, std::nullopt);
   ++m_drawn;
   // The next moment is read while this one is drawn.
   read();
-  draw(frame);
+  draw(moment);
   if (m_drawn >= m_pictures) m_writer.finish();
 }
 
-void VideoExport::draw(const FramePtr& frame) {
-  m_writer.add(m_painter->paint(frame, m_writer.size()));
+void VideoExport::draw(const Moment& moment) {
+  const QSize size = m_writer.size();
+  if (m_parts.isEmpty()) {
+    m_writer.add(m_painter->paint(moment.frame, size));
+  } else {
+    const FilmLayout layout =
+        filmLayout(size, m_parts.cameras.size(), !m_parts.curves.picture.isNull());
+    const QImage field = m_painter->paint(moment.frame, layout.field.size());
+    m_writer.add(paintFilm(size, m_parts, field, moment.cameras, *moment.frame, moment.time));
+  }
   emit progressed(static_cast<double>(m_drawn) / static_cast<double>(m_pictures));
 }
 

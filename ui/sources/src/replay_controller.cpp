@@ -413,6 +413,8 @@ void ReplayController::noteWhatDoesNotFit() {
   constexpr double chunk = 1.0;  // s; groups do not begin all at once
   const auto held = m_file ? m_file->rows->range() : std::nullopt;
   if (!held || held->begin <= m_file->range.begin + chunk) return;
+  // Robots may have come later than events and datagrams.
+  if (m_file->rows->memoryBytes() < m_budget / 2) return;
   emit noted(
       {QStringLiteral(
            "The session does not fit into memory (%1 MB), so plots show its last %2. You can still "

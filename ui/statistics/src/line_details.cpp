@@ -78,7 +78,8 @@ QString figuresOf(const StatisticsRow& row, const std::optional<QDateTime>& cloc
         QStringLiteral("%1 · %2").arg(shortValueText(s.deviation), shortValueText(s.rms)));
     QStringList quantiles;
     for (const double quantile : s.quantiles) quantiles << shortValueText(quantile);
-    out += tableLine(QStringLiteral("5, 25, 50, 75, 95 %"), quantiles.join(QStringLiteral(" · ")));
+    out += tableLine(QStringLiteral("Percentiles 5, 25, 50, 75, 95"),
+                     quantiles.join(QStringLiteral(" · ")));
     out += tableLine(QStringLiteral("Min"),
                      atMoment(shortValueText(s.least, unit), s.leastAt, row.offset, clock));
     out += tableLine(QStringLiteral("Max"),

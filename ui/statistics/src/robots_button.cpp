@@ -27,6 +27,11 @@ class TickMenu : public QMenu {
   }
 };
 
+/// Stays the same when the robot is renamed, as isSameGroup() compares it.
+QString lastingNameOf(const telemetry::GroupInfo& group) {
+  return QString::fromStdString(group.id.empty() ? group.name : group.id);
+}
+
 }  // namespace
 
 RobotsButton::RobotsButton(ShownMoment* shown, RobotSelection* selection, QWidget* parent)
@@ -43,27 +48,40 @@ RobotsButton::RobotsButton(ShownMoment* shown, RobotSelection* selection, QWidge
   connect(selection, &RobotSelection::changed, this, [this] {
     if (m_followsSelection) emit changed();
   });
+  connect(shown, &ShownMoment::sourceChanged, this, &RobotsButton::label);
   choose(false, {});
+}
+
+std::vector<std::shared_ptr<const telemetry::GroupView>> RobotsButton::listed() const {
+  std::vector<std::shared_ptr<const telemetry::GroupView>> views, sorted;
+  const auto rows = m_shown->series();
+  for (telemetry::GroupId group = 0; rows && group < rows->groups(); ++group) {
+    views.push_back(rows->view(group));
+  }
+  for (const std::size_t index : telemetry::listedOrder(
+           views, [](const auto& view) -> const telemetry::GroupInfo& { return view->info(); })) {
+    sorted.push_back(views[index]);
+  }
+  return sorted;
 }
 
 std::vector<std::string> RobotsButton::robots() const {
   std::vector<std::string> names;
-  if (!m_followsSelection) {
-    for (const QString& name : m_names) names.push_back(name.toStdString());
-    return names;
-  }
-  const auto rows = m_shown->series();
-  for (telemetry::GroupId group = 0; rows && group < rows->groups(); ++group) {
-    const auto view = rows->view(group);
-    const telemetry::RobotFacts& facts = telemetry::factsOf(view->info());
-    if (facts.linkOf.empty() && m_selection->contains(facts.uid))
-      names.push_back(view->info().name);
+  if (!m_followsSelection && m_groups.isEmpty()) return names;
+  for (const auto& view : listed()) {
+    const telemetry::GroupInfo& group = view->info();
+    const telemetry::RobotFacts& facts = telemetry::factsOf(group);
+    const bool isChosen = m_followsSelection
+                              ? facts.linkOf.empty() && m_selection->contains(facts.uid)
+                              : m_groups.contains(lastingNameOf(group));
+    if (isChosen) names.push_back(group.name);
   }
   return names;
 }
 
 void RobotsButton::fill() {
   menu()->clear();
+  label();
   const auto add = [this](const QString& text, bool on, auto action) {
     QAction* made = menu()->addAction(text);
     made->setCheckable(true);
@@ -71,47 +89,47 @@ void RobotsButton::fill() {
     connect(made, &QAction::triggered, this, action);
     return made;
   };
-  const bool isAll = !m_followsSelection && m_names.isEmpty();
+  const bool isAll = !m_followsSelection && m_groups.isEmpty();
   add(QStringLiteral("All robots"), isAll, [this] { choose(false, {}); });
   add(QStringLiteral("Robots selected on the field"), m_followsSelection,
       [this] { choose(true, {}); });
   menu()->addSeparator();
-  std::vector<std::shared_ptr<const telemetry::GroupView>> views;
-  const auto rows = m_shown->series();
-  for (telemetry::GroupId group = 0; rows && group < rows->groups(); ++group) {
-    views.push_back(rows->view(group));
-  }
-  const auto order = telemetry::listedOrder(
-      views, [](const auto& view) -> const telemetry::GroupInfo& { return view->info(); });
-  for (const std::size_t index : order) {
-    const QString name = QString::fromStdString(views[index]->info().name);
-    QAction* robot = add(name, m_names.contains(name), [this, name](bool on) {
-      QStringList names = m_names;
-      names.removeAll(name);
-      if (on) names << name;
-      choose(false, names);
-    });
-    robot->setData(name);  // the menu stays open
+  for (const auto& view : listed()) {
+    const QString id = lastingNameOf(view->info());
+    QAction* robot =
+        add(QString::fromStdString(view->info().name), m_groups.contains(id), [this, id](bool on) {
+          QStringList groups = m_groups;
+          groups.removeAll(id);
+          if (on) groups << id;
+          choose(false, groups);
+        });
+    robot->setData(id);  // the menu stays open
   }
 }
 
-void RobotsButton::choose(bool followsSelection, const QStringList& names) {
+void RobotsButton::choose(bool followsSelection, const QStringList& groups) {
   m_followsSelection = followsSelection;
-  m_names = names;
+  m_groups = groups;
   const QList<QAction*> actions = menu()->actions();
   for (QAction* action : actions) {
-    if (action->data().isValid()) action->setChecked(names.contains(action->data().toString()));
+    if (action->data().isValid()) action->setChecked(groups.contains(action->data().toString()));
   }
   if (actions.size() > 1) {
-    actions[0]->setChecked(!followsSelection && names.isEmpty());
+    actions[0]->setChecked(!followsSelection && groups.isEmpty());
     actions[1]->setChecked(followsSelection);
   }
-  constexpr qsizetype mostNamed = 3;
-  setText(followsSelection            ? QStringLiteral("Selected robots")
-          : names.isEmpty()           ? QStringLiteral("All robots")
-          : names.size() <= mostNamed ? names.join(QStringLiteral(", "))
-                                      : QStringLiteral("%1 robots").arg(names.size()));
+  label();
   emit changed();
+}
+
+void RobotsButton::label() {
+  constexpr qsizetype maxNamed = 3;
+  QStringList names;
+  for (const std::string& name : robots()) names << QString::fromStdString(name);
+  setText(m_followsSelection         ? QStringLiteral("Selected robots")
+          : names.isEmpty()          ? QStringLiteral("All robots")
+          : names.size() <= maxNamed ? names.join(QStringLiteral(", "))
+                                     : QStringLiteral("%1 robots").arg(names.size()));
 }
 
 }  // namespace pitchboard::ui

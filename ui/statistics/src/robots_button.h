@@ -6,8 +6,11 @@
 
 #include <QStringList>
 #include <QToolButton>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include <telemetry/series/series_store.h>
 
 namespace pitchboard::ui {
 
@@ -28,12 +31,15 @@ class RobotsButton : public QToolButton {
 
  private:
   void fill();
-  void choose(bool followsSelection, const QStringList& names);
+  void label();
+  void choose(bool followsSelection, const QStringList& groups);
+  /// The groups in the order in which they are listed.
+  std::vector<std::shared_ptr<const telemetry::GroupView>> listed() const;
 
   ShownMoment* m_shown;
   RobotSelection* m_selection;
   bool m_followsSelection = false;
-  QStringList m_names;  // chosen by name; empty: all
+  QStringList m_groups;  // chosen one by one, by what isSameGroup() compares; empty: all
 };
 
 }  // namespace pitchboard::ui

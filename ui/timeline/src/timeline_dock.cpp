@@ -51,6 +51,7 @@ class TimelineDock : public QWidget {
               menu.exec(at);
             });
     m_strip->setFuture(context.future);
+    m_strip->setRules(context.rules);
     if (context.compared != nullptr) {
       connect(m_strip, &TimelineStrip::comparedMoved, context.compared,
               &ComparedSession::setOffset);

@@ -12,6 +12,7 @@
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/rule_watch.h>
 #include <ui/sources/shown_moment.h>
 
 #include "timeline_strip.h"
@@ -35,6 +36,7 @@ void TimelineStrip::paintEvent(QPaintEvent*) {
   painter.setRenderHint(QPainter::Antialiasing);
   painter.fillRect(rect(), theme().window);
   paintBand(painter);
+  paintRules(painter);
   paintBranch(painter);
   paintRange(painter);
   paintWindow(painter);
@@ -58,6 +60,41 @@ void TimelineStrip::paintBand(QPainter& painter) const {
   if (right <= left) return;
   drawRoundBox(painter, QRectF(left, band.top() + 1, right - left, band.height() - 2), 2,
                theme().innerLine);
+}
+
+// The most severe rule of each pixel, however many there are.
+void TimelineStrip::paintRules(QPainter& painter) const {
+  const QRect row = rulesRect();
+  if (row.isEmpty()) return;
+  painter.setRenderHint(QPainter::Antialiasing, false);
+  painter.fillRect(QRect(row.left(), row.bottom(), row.width(), 1), theme().innerLine);
+  std::vector<int> severity(static_cast<std::size_t>(row.width()), -1);
+  for (const BrokenRule& one : m_rules->broken()) {
+    const telemetry::TimeRange& range = one.moment.range;
+    const double from = m_axis.pixel(range.begin) - row.left();
+    const double until = m_axis.pixel(range.end) - row.left();
+    if (until < 0.0 || from >= row.width()) continue;
+    constexpr int narrowest = 2;
+    const int first = std::max(0, static_cast<int>(std::floor(from)));
+    const int last = std::min(
+        row.width() - 1, std::max(first + narrowest - 1, static_cast<int>(std::ceil(until)) - 1));
+    const int own = static_cast<int>(m_rules->ruleOf(one).severity);
+    for (int x = first; x <= last; ++x) {
+      int& shown = severity[static_cast<std::size_t>(x)];
+      shown = std::max(shown, own);
+    }
+  }
+  for (int x = 0; x < row.width();) {
+    const int own = severity[static_cast<std::size_t>(x)];
+    int end = x + 1;
+    while (end < row.width() && severity[static_cast<std::size_t>(end)] == own) ++end;
+    if (own >= 0) {
+      painter.fillRect(QRect(row.left() + x, row.top(), end - x, row.height()),
+                       severityColor(static_cast<telemetry::RuleSeverity>(own)));
+    }
+    x = end;
+  }
+  painter.setRenderHint(QPainter::Antialiasing);
 }
 
 // Where the match has been and is not any more: dashed, as in the plots, and named.

@@ -8,11 +8,13 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <ui/base/theme.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/rule_watch.h>
 #include <ui/sources/shown_moment.h>
 
 namespace pitchboard::ui {
@@ -24,6 +26,11 @@ constexpr double markReach = 7.0;  // px of the mock
 constexpr int narrowestHandle = 26, narrowestWindow = 12;
 // What moves by itself moves a pixel or two in that time; more pictures of it only cost.
 constexpr Beat::Milliseconds calmly{50};
+
+/// Of the row of broken rules, with the gap below it.
+int rulesHeightOf(const QWidget* strip, const RuleWatch* rules) {
+  return rules != nullptr && !rules->rules().empty() ? scaled(strip, 9) : 0;
+}
 
 }  // namespace
 
@@ -106,7 +113,65 @@ void TimelineStrip::setFuture(AbandonedFuture* future) {
 }
 
 QSize TimelineStrip::sizeHint() const {
-  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56) + branchHeight()};
+  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56) + branchHeight() +
+                                 rulesHeightOf(this, m_rules)};
+}
+
+void TimelineStrip::setRules(RuleWatch* rules) {
+  m_rules = rules;
+  if (rules == nullptr) return;
+  connect(rules, &RuleWatch::changed, this, [this] {
+    if (height() != sizeHint().height()) updateGeometry();
+    updateCalmly();
+  });
+}
+
+int TimelineStrip::lanesTop() const {
+  return bandRect().top() - rulesHeightOf(this, m_rules);
+}
+
+QRect TimelineStrip::rulesRect() const {
+  const int high = rulesHeightOf(this, m_rules);
+  if (high == 0) return {};
+  const QRect band = bandRect();
+  return {band.left(), lanesTop(), band.width(), high - scaled(this, 2)};
+}
+
+std::vector<const BrokenRule*> TimelineStrip::brokenAt(double x) const {
+  std::vector<const BrokenRule*> out;
+  if (m_rules == nullptr) return out;
+  constexpr double reach = 2.5;  // px
+  for (const BrokenRule& one : m_rules->broken()) {
+    const telemetry::TimeRange& range = one.moment.range;
+    if (m_axis.pixel(range.begin) - reach > x) break;  // in order of time
+    if (m_axis.pixel(range.end) + reach >= x) out.push_back(&one);
+  }
+  std::ranges::stable_sort(out, std::greater(), [this](const BrokenRule* one) {
+    return m_rules->ruleOf(*one).severity;
+  });
+  return out;
+}
+
+QString TimelineStrip::rulesTip(double x) const {
+  QStringList lines;
+  constexpr std::size_t most = 8;
+  const auto all = brokenAt(x);
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
+    const telemetry::FoundMoment& moment = all[i]->moment;
+    QString line =
+        QStringLiteral("%1  %2 (%3, %4 s")
+            .arg(momentText(moment.range.begin, 2, m_shown->clock()), m_rules->sentenceOf(*all[i]),
+                 QString::fromStdString(m_rules->ruleOf(*all[i]).name))
+            .arg(moment.range.end - moment.range.begin, 0, 'f', 2);
+    if (moment.value) line += QStringLiteral(", worst %1").arg(*moment.value, 0, 'g', 4);
+    lines << line.toHtmlEscaped() + QLatin1Char(')');
+  }
+  if (all.size() > most) {
+    lines << QStringLiteral("and %1 more; zoom in to see them").arg(all.size() - most);
+  }
+  if (lines.isEmpty()) lines << QStringLiteral("No rule is broken here");
+  return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +
+         QStringLiteral("</p>");
 }
 
 int TimelineStrip::branchHeight() const {
@@ -118,7 +183,7 @@ QRect TimelineStrip::branchRect() const {
   const QRect band = bandRect();
   const int left = std::max(qRound(m_axis.pixel(m_future->begin())), band.left());
   const int right = std::min(qRound(m_axis.pixel(m_future->end())), band.right());
-  return {left, band.top() - branchHeight(), std::max(right - left, 0), scaled(this, 13)};
+  return {left, lanesTop() - branchHeight(), std::max(right - left, 0), scaled(this, 13)};
 }
 
 QSize TimelineStrip::minimumSizeHint() const {
@@ -136,12 +201,12 @@ QRect TimelineStrip::comparedRect() const {
   if (m_compared == nullptr) return {};
   const QRect band = bandRect();
   const int high = scaled(this, 18);
-  return {band.left(), band.top() - branchHeight() - high, band.width(), high};
+  return {band.left(), lanesTop() - branchHeight() - high, band.width(), high};
 }
 
 QRect TimelineStrip::marksRect() const {
   const QRect band = bandRect();
-  const int bottom = m_compared != nullptr ? comparedRect().top() : band.top() - branchHeight();
+  const int bottom = m_compared != nullptr ? comparedRect().top() : lanesTop() - branchHeight();
   return {band.left(), 0, band.width(), bottom};
 }
 
@@ -268,6 +333,7 @@ QString TimelineStrip::tipAt(QPointF at) {
     return QStringLiteral("Abandoned future, %1 to %2")
         .arg(momentText(m_future->begin(), 0, clock), momentText(m_future->end(), 0, clock));
   }
+  if (rulesRect().contains(at.toPoint())) return rulesTip(at.x());
   if (const auto handle = rangeHandle(); handle && handle->contains(at)) {
     return QStringLiteral("Time range of the plots. Drag to move it, drag an end to change it");
   }
@@ -333,7 +399,10 @@ void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
       setCursor(Qt::IBeamCursor);
       break;
     default:
-      setCursor(markAt(at) != nullptr ? Qt::PointingHandCursor : Qt::ArrowCursor);
+      setCursor(markAt(at) != nullptr ||
+                        (rulesRect().contains(at.toPoint()) && !brokenAt(at.x()).empty())
+                    ? Qt::PointingHandCursor
+                    : Qt::ArrowCursor);
       break;
   }
 }
@@ -352,7 +421,12 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
   m_grab = grabAt(m_pressedAt, event->modifiers());
   if (m_grab == Grab::Moment) {
     const EventMark* mark = markAt(m_pressedAt);
-    m_shown->seek(mark != nullptr ? m_shown->events()->at(mark->row).time : m_grabTime);
+    const auto broken = rulesRect().contains(m_pressedAt.toPoint())
+                            ? brokenAt(m_pressedAt.x())
+                            : std::vector<const BrokenRule*>();
+    m_shown->seek(!broken.empty()   ? broken.front()->moment.range.begin
+                  : mark != nullptr ? m_shown->events()->at(mark->row).time
+                                    : m_grabTime);
   } else if (m_grab == Grab::Compared) {
     m_grabOffset = m_comparedOffset;
   } else if (m_grab != Grab::Range) {

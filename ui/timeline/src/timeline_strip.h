@@ -23,6 +23,8 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 class EventList;
 class LinkedTime;
+class RuleWatch;
+struct BrokenRule;
 class ShownMoment;
 
 class TimelineStrip : public QWidget {
@@ -38,6 +40,9 @@ class TimelineStrip : public QWidget {
 
   /// What the match has left, a dashed branch above the band; null: none.
   void setFuture(AbandonedFuture* future);
+
+  /// Broken rules, in a row above the band while there are rules; null: none.
+  void setRules(RuleWatch* rules);
 
   telemetry::TimeRange shown() const { return m_axis.shown; }
   /// Shows this much; ends following.
@@ -56,6 +61,9 @@ class TimelineStrip : public QWidget {
   QRect bandRect() const;
   QRect comparedRect() const;  ///< empty while nothing is compared
   QRect branchRect() const;    ///< of the abandoned future; empty while there is none
+  QRect rulesRect() const;     ///< empty while there are no rules
+  /// Broken rules at this pixel, the most severe first.
+  std::vector<const BrokenRule*> brokenAt(double x) const;
   /// What moves the plots' window, and changes it at its ends: below the band, never narrower than
   /// a hand needs.
   std::optional<QRectF> rangeHandle() const;
@@ -100,8 +108,11 @@ class TimelineStrip : public QWidget {
   void finishNote(bool keep);
   QRect marksRect() const;
   int branchHeight() const;
+  int lanesTop() const;  // of what stands on the band
+  QString rulesTip(double x) const;
   void paintBranch(QPainter& painter) const;
   void paintBand(QPainter& painter) const;
+  void paintRules(QPainter& painter) const;
   void paintWindow(QPainter& painter) const;
   void paintRange(QPainter& painter) const;
   void paintMarks(QPainter& painter);
@@ -111,6 +122,7 @@ class TimelineStrip : public QWidget {
   ShownMoment* m_shown;
   LinkedTime* m_plots;
   AbandonedFuture* m_future = nullptr;
+  RuleWatch* m_rules = nullptr;
   const EventList* m_compared = nullptr;
   double m_comparedOffset = 0.0, m_grabOffset = 0.0;
   QString m_comparedCaption;

@@ -20,6 +20,7 @@ namespace {
 using Kind = link::MatchEventKind;
 
 const QString kindsKey = QStringLiteral("alarms/kinds");
+const QString rulesKey = QStringLiteral("alarms/rules");
 const QString soundKey = QStringLiteral("alarms/sound");
 
 struct Offer {
@@ -110,6 +111,7 @@ Alarms::Alarms(ShownMoment* sources, QWidget* field, QSettings* settings, QObjec
     for (const QString& name : settings->value(kindsKey).toStringList()) {
       if (const auto kind = link::matchEventKind(name.toStdString())) m_chosen.insert(*kind);
     }
+    m_rules = settings->value(rulesKey, true).toBool();
     m_sound = settings->value(soundKey).toBool();
   }
   for (FrameSource* source : sources->sources()) {
@@ -130,6 +132,7 @@ void Alarms::keep() {
     names << QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
   }
   m_settings->setValue(kindsKey, names);
+  m_settings->setValue(rulesKey, m_rules);
   m_settings->setValue(soundKey, m_sound);
 }
 
@@ -146,6 +149,13 @@ void Alarms::fill(QMenu* menu) {
       keep();
     });
   }
+  QAction* rules = menu->addAction(QStringLiteral("A rule of severity error is broken"));
+  rules->setCheckable(true);
+  rules->setChecked(m_rules);
+  connect(rules, &QAction::toggled, this, [this](bool on) {
+    m_rules = on;
+    keep();
+  });
   menu->addSeparator();
   QAction* sound = menu->addAction(QStringLiteral("Play a sound"));
   sound->setCheckable(true);
@@ -162,13 +172,20 @@ void Alarms::take(const std::vector<link::MatchEvent>& events) {
     return m_chosen.contains(event.kind);
   });
   if (first == events.end()) return;
-  QWidget* field = m_frame->parentWidget();
   const auto all = std::count_if(
       first, events.end(), [this](const auto& event) { return m_chosen.contains(event.kind); });
   QString sentence = QString::fromStdString(sentenceOf(*first));
   if (all > 1) sentence += QStringLiteral(" (and %1 more)").arg(all - 1);
+  raise(sentence);
+}
+
+void Alarms::raiseForRule(const QString& sentence) {
+  if (m_rules) raise(sentence);
+}
+
+void Alarms::raise(const QString& sentence) {
   m_frame->raiseWith(sentence);
-  QApplication::alert(field->window());
+  QApplication::alert(m_frame->parentWidget()->window());
   if (m_sound) m_ring();
 }
 

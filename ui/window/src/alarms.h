@@ -29,6 +29,8 @@ class Alarms : public QObject {
   Alarms(ShownMoment* sources, QWidget* field, QSettings* settings, QObject* parent);
   /// A tick for each kind of event that can be an alarm, and one for the sound.
   void fill(QMenu* menu);
+  /// Raises the alarm for a rule of severity error, unless it is switched off.
+  void raiseForRule(const QString& sentence);
   /// The red edge is seen; what it is about is said a little longer.
   bool isRaised() const;
   /// What makes the sound; at first that of the desktop.
@@ -36,12 +38,13 @@ class Alarms : public QObject {
 
  private:
   void take(const std::vector<link::MatchEvent>& events);
+  void raise(const QString& sentence);
   void keep();
 
   AlarmFrame* m_frame;  // over the field
   QSettings* m_settings;
   std::set<link::MatchEventKind> m_chosen;
-  bool m_sound = false;
+  bool m_rules = true, m_sound = false;
   std::function<void()> m_ring;
 };
 

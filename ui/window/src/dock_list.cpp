@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dock_list.h"
 
+#include <QAction>
+
 #include <ui/experiments/experiments_dock.h>
+#include <ui/experiments/situation_tests.h>
 #include <ui/explore/explore_dock.h>
 #include <ui/live/attach_dialog.h>
 #include <ui/live/bad_messages_dock.h>
@@ -13,9 +16,12 @@
 #include <ui/rerun/rerun_dialog.h>
 #include <ui/rerun/rerun_dock.h>
 #include <ui/robots/robots_dock.h>
+#include <ui/rules/rules_dock.h>
+#include <ui/statistics/plays_dock.h>
 #include <ui/statistics/statistics_dock.h>
 #include <ui/timeline/timeline_dock.h>
 #include <ui/variables/variables_dock.h>
+#include <ui/video/video_dock.h>
 
 #include "studio_parts.h"
 
@@ -71,14 +77,33 @@ QWidget* rerun(const StudioParts& s, QWidget* parent) {
                          parent] { showRerunDialog(asked, parent->window()); }},
                        parent);
 }
+QWidget* rules(const StudioParts& s, QWidget* parent) {
+  return makeRulesDock(s.rules, s.shown, parent);
+}
 QWidget* statistics(const StudioParts& s, QWidget* parent) {
   return makeStatisticsDock({s.shown, s.replay, s.compared, s.selection, s.settings}, parent);
+}
+QWidget* video(const StudioParts& s, QWidget* parent) {
+  return makeVideoDock({s.shown, s.replay}, parent);
+}
+
+QWidget* plays(const StudioParts& s, QWidget* parent) {
+  const RerunDialogParts asked{s.rerunner, s.shown, s.selection, s.settings};
+  return makePlaysDock(
+      {s.shown, s.replay, [tests = s.tests] { tests->ask(); },
+       [asked, parent] { showRerunDialog(asked, parent->window()); },
+       [parent] {
+         auto* action = parent->window()->findChild<QAction*>(QStringLiteral("exportSession"));
+         if (action != nullptr) action->trigger();
+       }},
+      parent);
 }
 QWidget* log(const StudioParts& s, QWidget* parent) {
   return makeLogDock(s.controller, s.shown, parent);
 }
 QWidget* timeline(const StudioParts& s, QWidget* parent) {
-  return makeTimelineDock({s.time, s.shown, s.timelineActions, s.compared, s.future}, parent);
+  return makeTimelineDock({s.time, s.shown, s.timelineActions, s.compared, s.future, s.rules},
+                          parent);
 }
 
 }  // namespace
@@ -96,7 +121,10 @@ std::span<const DockInfo> studioDocks() {
       {"log", "Log", Qt::BottomDockWidgetArea, true, log},
       {"experiments", "Experiments", Qt::BottomDockWidgetArea, false, experiments, false, 300},
       {"rerun", "Rerun", Qt::BottomDockWidgetArea, false, rerun, false, 300},
+      {"rules", "Rules", Qt::BottomDockWidgetArea, false, rules, false, 220},
       {"statistics", "Statistics", Qt::BottomDockWidgetArea, false, statistics, false, 300},
+      {"plays", "Play by play", Qt::BottomDockWidgetArea, false, plays, false, 300},
+      {"video", "Video", Qt::BottomDockWidgetArea, false, video, false, 300},
       {"timeline", "Timeline", Qt::BottomDockWidgetArea, true, timeline, true},
   };
   return docks;

@@ -27,6 +27,8 @@ const KeyRow keyTable[] = {
     {"step", "Ctrl+.", keysOfTime, "Play one tick", nullptr, whileHeld},
     {"nextEvent", "N Ctrl+N", keysOfTime, nullptr, nullptr, whileHeld},
     {"previousEvent", "Shift+N Ctrl+Shift+N", keysOfTime, nullptr, nullptr, whileHeld},
+    {"previousPicture", ",", keysOfTime, nullptr, nullptr, whileHeld},
+    {"nextPicture", ".", keysOfTime, nullptr, nullptr, whileHeld},
     {"addBookmark", "M Ctrl+B", keysOfTime},
     {"escape", "Esc", keysOfTime},
     {"timelineNow", "Ctrl+End", keysOfTime},

@@ -29,6 +29,7 @@
 #include <ui/experiments/situation_tests.h>
 #include <ui/explore/explorer.h>
 #include <ui/field/field_view.h>
+#include <ui/plots/film_curves.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/processes/orphan_notice.h>
 #include <ui/rerun/rerunner.h>
@@ -47,9 +48,11 @@
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
+#include <ui/sources/rule_watch.h>
 #include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
 #include <ui/timeline/timeline_actions.h>
+#include <ui/video/video_dock.h>
 #include <ui/window/scenario_files.h>
 
 #include "alarms.h"
@@ -118,6 +121,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setCentralWidget(centre);
   m_fieldOnly = new FieldOnly(this, m_shown);
   m_alarms = new Alarms(m_shown, centre, settings, this);
+  m_rules = new RuleWatch(m_shown, m_replay, settings, this);
+  connect(m_rules, &RuleWatch::broke, m_alarms, &Alarms::raiseForRule);
 
   m_sessions = new SessionFiles(m_replay, controller, m_shown, m_notices, this);
   m_bar = new TransportBar({controller, m_shown, m_replay, m_recording, m_live}, settings, this);
@@ -219,6 +224,7 @@ void MainWindow::shutDown() {
   delete m_compared;
   delete m_files;
   qDeleteAll(std::exchange(m_docks, {}));
+  delete m_rules;
   delete m_explorer;
   delete m_rerunner;
   delete m_bar;
@@ -240,7 +246,7 @@ void MainWindow::shutDown() {
 StudioParts MainWindow::parts() {
   return {m_controller,      m_shown,  m_selection, m_field,    m_time,    m_settings, m_plots,
           m_timelineActions, m_replay, m_recording, m_live,     m_overlay, m_compared, m_future,
-          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work,   m_share};
+          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work,   m_share,    m_rules};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -347,6 +353,11 @@ void MainWindow::showExport() {
   }
   std::ranges::stable_sort(source.groups, telemetry::isListedBefore);
   source.clock = m_shown->clock();
+  constexpr int filmWidth = 1920;  // pixels
+  if (m_plotsDock != nullptr) source.film.curves = filmCurves(*m_plotsDock, filmWidth);
+  if (const auto* video = findChild<QDockWidget*>(QStringLiteral("video"))) {
+    source.film.cameras = filmCameras(video->widget());
+  }
   auto* dialog =
       new ExportDialog(std::move(source), m_shown->selection().value_or(*all), m_field, this);
   dialog->setAttribute(Qt::WA_DeleteOnClose);

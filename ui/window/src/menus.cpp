@@ -27,6 +27,7 @@
 #include <ui/plots/plots_dock.h>
 #include <ui/rerun/rerun_dialog.h>
 #include <ui/robots/robots_dock.h>
+#include <ui/rules/rules_dock.h>
 #include <ui/session/session_files.h>
 #include <ui/share/share_dialog.h>
 #include <ui/sources/compared_session.h>
@@ -129,6 +130,17 @@ void StudioMenus::makeFile() {
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
            "document-open-folder", "openSession");
+  QAction* join = menu->addAction(QStringLiteral("&Add recording of a robot…"), sessions,
+                                  &SessionFiles::askAndJoin);
+  join->setObjectName(QStringLiteral("addRecording"));
+  join->setToolTip(QStringLiteral(
+      "Joins what pitchboard-agent recorded on a robot to the live session that is open"));
+  QObject::connect(menu, &QMenu::aboutToShow, join, [join, shown = m_parts.shown] {
+    enableUnless(*join, shown->kind().hasPresent
+                            ? QStringLiteral("Open the live session of the match in Replay first")
+                            : QString());
+  });
+  QObject::connect(menu, &QMenu::aboutToHide, join, [join] { enableUnless(*join, {}); });
   onlyInTheMatch(withIcon(menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                           &ScenarioFiles::askAndSave),
                           "document-save", "saveScenario"));
@@ -379,19 +391,28 @@ void StudioMenus::makeTimeline() {
                       [sessions] { sessions->simulateFromHere(Poses::Believed); });
   QAction* asItWas = menu->addAction(QStringLiteral("Simulate from here, as it &was"), sessions,
                                      [sessions] { sessions->simulateFromHere(Poses::True); });
+  QAction* follow = menu->addAction(QStringLiteral("S&imulate from here, others follow…"), sessions,
+                                    &SessionFiles::askAndFollow);
+  follow->setObjectName(QStringLiteral("simulateFollowing"));
+  follow->setToolTip(QStringLiteral(
+      "Opponents and ball move as they were recorded, until your robots change what happens"));
   QAction* goOn = menu->addAction(QStringLiteral("&Continue the match from this moment"), sessions,
                                   &SessionFiles::continueFromHere);
   asBelieved->setObjectName(QStringLiteral("simulateBelieved"));
   asItWas->setObjectName(QStringLiteral("simulateTrue"));
   goOn->setObjectName(QStringLiteral("continueFromHere"));
   ShownMoment* shown = m_parts.shown;
-  const auto refresh = [asItWas, goOn, shown] {
+  const auto refresh = [asItWas, follow, goOn, shown] {
     const FramePtr frame = shown->frame();
     enableUnless(*asItWas,
                  !frame || frame->truthKnown
                      ? QString()
                      : QStringLiteral("The true poses are not known here. Simulate as the "
                                       "robots believe"));
+    enableUnless(*follow, shown->kind().hasPresent && !shown->isLookingBack()
+                              ? QStringLiteral("Look back on the timeline first: nothing is "
+                                               "recorded after this moment")
+                              : QString());
     enableUnless(*goOn,
                  !shown->kind().mayBeContinued
                      ? QStringLiteral("Only a match in Simulate can be continued. Here, simulate "
@@ -429,6 +450,19 @@ void StudioMenus::makeTimeline() {
   for (QDockWidget* dock : m_context.docks) {
     if (dock->objectName() != QLatin1String("rerun")) continue;
     QObject::connect(rerunner, &Rerunner::finished, dock, [dock] {
+      dock->show();
+      dock->raise();
+    });
+  }
+  QAction* rules =
+      menu->addAction(QStringLiteral("Check ru&les…"), &m_window,
+                      [this_ = &m_window, all = m_parts.rules] { askForRules(all, this_); });
+  rules->setObjectName(QStringLiteral("checkRules"));
+  rules->setToolTip(
+      QStringLiteral("Opens a file with conditions that must not hold, and shows where they do"));
+  for (QDockWidget* dock : m_context.docks) {
+    if (dock->objectName() != QLatin1String("rules")) continue;
+    QObject::connect(rules, &QAction::triggered, dock, [dock] {
       dock->show();
       dock->raise();
     });

@@ -22,6 +22,7 @@ class PlotTarget;
 class ReplayController;
 class Rerunner;
 class RobotSelection;
+class RuleWatch;
 class RunningWork;
 class SessionRecording;
 class SituationTests;
@@ -50,6 +51,7 @@ struct StudioParts {
   Rerunner* rerunner = nullptr;         ///< the recording through a process again
   RunningWork* work = nullptr;          ///< what closing the window would end
   NetworkShare* share = nullptr;        ///< what other programs see
+  RuleWatch* rules = nullptr;           ///< conditions that must not hold
 };
 
 }  // namespace pitchboard::ui

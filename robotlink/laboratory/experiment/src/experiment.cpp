@@ -217,6 +217,20 @@ void adviseTeams(Tournament& tournament, const std::vector<std::string>& names,
   }
 }
 
+/// The rules as they stand in a file.
+Json rulesJson(const std::vector<telemetry::Rule>& rules) {
+  Json out = Json::array();
+  for (const telemetry::Rule& rule : rules) {
+    Json& one = out.emplace_back(Json{{"name", rule.name},
+                                      {"text", rule.text},
+                                      {"when", rule.question.condition},
+                                      {"for", rule.question.least},
+                                      {"severity", nameOf(rule.severity)}});
+    if (!rule.question.robots.empty()) one["robots"] = rule.question.robots;
+  }
+  return out;
+}
+
 std::vector<ExperimentName> namesIn(std::string_view folder) {
   std::vector<ExperimentName> out;
   for (const std::string_view name : resourceNames(folder.substr(0, folder.size() - 1))) {
@@ -286,6 +300,7 @@ Result<Experiment> experimentFromJson(std::string_view text, std::string_view so
   whole["scenario"] = parts.scenario;
   whole[e.tournament ? "matches" : "runs"] = e.tournament ? matches : e.runs;
   whole["seed"] = e.seed;
+  if (!e.rules.empty()) whole["rules"] = rulesJson(e.rules);
   for (std::size_t i = 0; e.tournament && i < e.tournament->teams.size(); ++i) {
     const std::string& runtime = e.tournament->teams[i].runtime;
     if (!runtime.empty()) whole["teams"][i]["runtime"] = runtime;

@@ -7,9 +7,11 @@
 
 #include <base/angles.h>
 #include <base/byte_sizes.h>
+#include <base/identifier.h>
 #include <base/read_file.h>
 #include <base/short_name.h>
 #include <resources/resources.h>
+#include <robotlink/experiment/run_result.h>
 #include <simcore/world/limits.h>
 
 namespace pitchboard::link {
@@ -26,20 +28,15 @@ constexpr std::array<std::string_view, 8> reductionNames{"mean", "min",      "ma
 constexpr std::array<std::string_view, 3> recordNames{"nothing", "failed", "all"};
 constexpr std::array<std::string_view, 2> processesNames{"inline", "separate"};
 
-bool isMetricName(std::string_view name) {
-  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
-  return !name.empty() && letters.find(name[0]) != std::string_view::npos &&
-         name.find_first_not_of(std::string(letters) + "0123456789") == std::string_view::npos;
-}
-
 /// An experiment has no teams, and says what a tournament knows by itself.
 std::span<const std::string_view> keysOf(const JsonNode& root) {
-  constexpr static std::array<std::string_view, 25> experiment{
+  constexpr static std::array<std::string_view, 26> experiment{
       "version", "name",       "title",  "description", "scenario",
       "set",     "grid",       "random", "runs",        "common_random_numbers",
       "seed",    "conditions", "team",   "starts",      "placed",
       "stop",    "metrics",    "sample", "success",     "compare",
-      "record",  "assertions", "paths",  "processes",   "speed"};
+      "record",  "assertions", "paths",  "processes",   "speed",
+      "rules"};
   constexpr static std::array<std::string_view, 22> tournament{
       "version", "name",   "title", "description", "scenario",   "set",       "random", "seed",
       "starts",  "placed", "stop",  "metrics",     "sample",     "record",    "paths",  "processes",
@@ -92,6 +89,7 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
     readTournament(e);
   } else {
     readAssertions(e);
+    readRules(e);
   }
   if (m_report.failed()) return;
   if (team) {
@@ -101,6 +99,11 @@ void ExperimentReader::read(Experiment& e, ConditionParts& parts) {
     const auto first = std::ranges::find(teams, robots[0]["team"].get<std::string>());
     if (first != teams.end()) e.team = teamColors[std::size_t(first - teams.begin())].color;
   }
+}
+
+/// Paths in the file are relative to its folder.
+std::string ExperimentReader::pathOf(const std::string& name) const {
+  return m_folder.empty() ? name : (std::filesystem::path(m_folder) / name).string();
 }
 
 void ExperimentReader::readScenario(ConditionParts& parts) {
@@ -118,8 +121,7 @@ void ExperimentReader::readScenario(ConditionParts& parts) {
   const bool known =
       std::ranges::any_of(builtIn, [&](const ScenarioName& one) { return one.name == name; });
   const bool isPath = !known && name.find_first_of("/.") != std::string::npos;
-  const std::string path =
-      isPath && !m_folder.empty() ? (std::filesystem::path(m_folder) / name).string() : name;
+  const std::string path = isPath ? pathOf(name) : name;
   const auto whole = loadScenario(path);
   if (!whole) return m_root.fail("scenario", whole.error().text());
   parts.stop = whole->stop;
@@ -262,7 +264,7 @@ void ExperimentReader::readMetrics(Experiment& e) {
     metric.name = object.text("name", "", 64);
     metric.unit = object.text("unit", "", 16);
     metric.expression = object.text("expression", "", 2000);
-    if (!m_report.failed() && !isMetricName(metric.name)) {
+    if (!m_report.failed() && !isIdentifier(metric.name)) {
       object.fail("name", "must be letters, digits and '_', beginning with a letter");
     }
     if (const auto reduction = object.choice("reduce", reductionNames, "reduction")) {
@@ -309,6 +311,23 @@ void ExperimentReader::readAssertions(Experiment& e) {
     object.require("check");
     e.assertions.push_back(
         {object.text("check", "", 500), object.text("condition", "", 300), item.line});
+  }
+}
+
+/// Rules of severity error are assertions: never broken.
+void ExperimentReader::readRules(Experiment& e) {
+  const JsonNode* node = m_root.find("rules");
+  if (!node || m_report.failed()) return;
+  if (node->kind == JsonNode::Kind::Text) {
+    auto rules = telemetry::rulesFromFile(pathOf(m_root.text("rules", "", 4096)));
+    if (!rules) return m_root.fail("rules", rules.error().text());
+    e.rules = std::move(*rules);
+  } else {
+    e.rules = telemetry::rulesOf(m_root, m_report);
+  }
+  for (const telemetry::Rule& rule : e.rules) {
+    if (rule.severity != telemetry::RuleSeverity::Error) continue;
+    e.assertions.push_back({"max(" + ruleMetric(rule) + ") == 0", {}, node->line});
   }
 }
 

@@ -48,6 +48,7 @@ class ExperimentReader {
   void readStop(Experiment& experiment, const StopConditions& usual);
   void readMetrics(Experiment& experiment);
   void readGiven(Experiment& experiment);
+  void readRules(Experiment& experiment);
   void readAssertions(Experiment& experiment);
   void readRecord(Experiment& experiment);
   void readTournament(Experiment& experiment);
@@ -56,6 +57,7 @@ class ExperimentReader {
   void readTeamAssertions(Tournament& tournament);
   std::optional<std::size_t> teamNamed(const JsonObject& object, std::string_view key,
                                        const Tournament& tournament) const;
+  std::string pathOf(const std::string& name) const;
   std::vector<PlacedByHand> placedOf(const JsonObject& object);
   std::vector<ScenarioSetting> settingsOf(const JsonNode& node, const std::string& path);
 

@@ -14,25 +14,29 @@ class Suite {
  public:
   Suite(std::string name, std::string group) : m_name(std::move(name)), m_group(std::move(group)) {}
 
-  /// `failure`: empty if the test passed.
-  void add(const std::string& name, const std::string& failure) {
+  /// `failure`: empty if the test passed. `skipped`: why it was not carried out.
+  void add(const std::string& name, const std::string& failure, const std::string& skipped = {}) {
     ++m_count;
     m_tests += "    <testcase classname=\"" + escaped(m_group) + "\" name=\"" + escaped(name) + '"';
-    if (failure.empty()) {
+    if (failure.empty() && skipped.empty()) {
       m_tests += "/>\n";
       return;
     }
-    ++m_failures;
-    m_tests += ">\n      <failure message=\"" + escaped(failure) + "\"/>\n    </testcase>\n";
+    ++(failure.empty() ? m_skipped : m_failures);
+    m_tests += std::string(">\n      <") + (failure.empty() ? "skipped" : "failure") +
+               " message=\"" + escaped(failure.empty() ? skipped : failure) +
+               "\"/>\n    </testcase>\n";
   }
   std::string text() const {
     return "  <testsuite name=\"" + escaped(m_name) + "\" tests=\"" + std::to_string(m_count) +
-           "\" failures=\"" + std::to_string(m_failures) + "\">\n" + m_tests + "  </testsuite>\n";
+           "\" failures=\"" + std::to_string(m_failures) + '"' +
+           (m_skipped > 0 ? " skipped=\"" + std::to_string(m_skipped) + '"' : "") + ">\n" +
+           m_tests + "  </testsuite>\n";
   }
 
  private:
   std::string m_name, m_group, m_tests;
-  std::size_t m_count = 0, m_failures = 0;
+  std::size_t m_count = 0, m_failures = 0, m_skipped = 0;
 };
 
 void add(const CheckedAssertion& one, Suite& suite) {
@@ -67,10 +71,11 @@ std::string suites(const Experiment& experiment, const ExperimentSummary& summar
   return out;
 }
 
-std::string errorSuite(const std::string& name, const std::string& error) {
+std::string errorSuite(const std::string& name, const std::string& error,
+                       const char* test = "can be played") {
   return "  <testsuite name=\"" + escaped(name) +
          "\" tests=\"1\" failures=\"0\" errors=\"1\">\n    <testcase classname=\"" + escaped(name) +
-         "\" name=\"can be played\">\n      <error message=\"" + escaped(error) +
+         "\" name=\"" + test + "\">\n      <error message=\"" + escaped(error) +
          "\"/>\n    </testcase>\n  </testsuite>\n";
 }
 
@@ -81,6 +86,20 @@ std::string junitReport(std::span<const TestedExperiment> tested) {
   for (const TestedExperiment& one : tested) {
     out += one.error.empty() ? suites(one.experiment, one.summary)
                              : errorSuite(one.experiment.name, one.error);
+  }
+  return out + foot;
+}
+
+std::string junitReport(std::span<const JunitSuite> suites) {
+  std::string out = head;
+  for (const JunitSuite& one : suites) {
+    if (!one.error.empty()) {
+      out += errorSuite(one.name, one.error, "can be read");
+      continue;
+    }
+    Suite suite(one.name, one.name);
+    for (const JunitSuite::Test& test : one.tests) suite.add(test.name, test.failure, test.skipped);
+    out += suite.text();
   }
   return out + foot;
 }

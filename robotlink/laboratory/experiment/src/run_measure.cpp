@@ -353,9 +353,9 @@ double RunMeasure::teamValue(TeamValue which, const Counted& counted) const {
     case TeamValue::SupportersClose:
       return m_watch.supportersClose();
     case TeamValue::Passes:
-      return ours.passes + others.passes;
+      return ours.plays.passes + others.plays.passes;
     case TeamValue::PassesOwn:
-      return ours.passes;
+      return ours.plays.passes;
     case TeamValue::RemovalsTeamHalf:
       return m_watch.removalsOfTeamAndHalf();
     case TeamValue::RemovalsAgain:
@@ -382,7 +382,7 @@ double RunMeasure::teamValue(TeamValue which, const Counted& counted) const {
   return unmeasured;
 }
 
-RunResult RunMeasure::result(const SimulatedMatch& match) {
+RunResult RunMeasure::result(const SimulatedMatch& match, std::span<const double> rules) {
   match.simulation().snapshot(m_now);
   if (match.finished()) end(match.finishedBy());
   RunResult out;
@@ -406,6 +406,7 @@ RunResult RunMeasure::result(const SimulatedMatch& match) {
   }
   for (const ReducedExpression& expression : m_expressions)
     out.values.push_back(expression.value());
+  out.values.insert(out.values.end(), rules.begin(), rules.end());
   for (const PathFollower& path : m_paths)
     std::ranges::move(path.pieces(), std::back_inserter(out.paths));
   return out;

@@ -101,7 +101,8 @@ class RunMeasure : public TickObserver {
   /// An expression that cannot be computed; looked for at the first moment.
   const std::optional<Error>& problem() const { return m_problem; }
   /// Of the run that is over, or that `match` itself has ended.
-  RunResult result(const SimulatedMatch& match);
+  /// `rules`: how often each was broken.
+  RunResult result(const SimulatedMatch& match, std::span<const double> rules);
 
  private:
   struct Robot {

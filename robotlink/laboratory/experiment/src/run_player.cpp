@@ -18,6 +18,7 @@
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/wire/live_clock.h>
 
+#include "rule_counter.h"
 #include "run_layout.h"
 #include "run_measure.h"
 
@@ -247,10 +248,15 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   const double rate = scenario.settings.tickRate;
   const auto sampler = std::make_shared<MatchSampler>(
       rows, MatchSamplerOptions{std::max(1, static_cast<int>(std::lround(e.sampleEvery * rate)))});
-  const auto tally = std::make_shared<RowTally>();
+  const auto tally = std::make_shared<RowTally>(scenario.settings.field);
   const auto counting = std::make_shared<MatchSampler>(
       tally, MatchSamplerOptions{std::max(1, static_cast<int>(std::lround(tallyStep * rate)))});
   const auto measure = std::make_shared<RunMeasure>(e, run, rows, tally);
+  const auto rules = e.rules.empty() ? nullptr : std::make_shared<RuleCounter>(e.rules);
+  if (rules) {
+    player.observe(std::make_shared<MatchSampler>(rules->rows()));
+    player.observe(rules);
+  }
   player.observe(counting);
   player.observe(sampler);
   player.observe(measure);
@@ -263,7 +269,8 @@ Result<RunResult> RunPlayer::playOne(std::size_t number, const Recording* record
   const auto first = WallClock::now();
   TRY(loop(player, *measure, run.condition, own ? &*own : nullptr));
   counting->ticked(player.match(), {});  // the last moment, whenever it is
-  RunResult result = measure->result(player.match());
+  RunResult result =
+      measure->result(player.match(), rules ? rules->finish() : std::vector<double>());
   std::vector<double> values;
   for (const Check::Name& name : m_success->names()) values.push_back(result.values[name.metric]);
   result.values[static_cast<std::size_t>(TeamValue::Success)] = m_success->holds(values);

@@ -102,6 +102,9 @@ std::vector<MetricInfo> metricsOf(const Experiment& experiment) {
   for (const ExpressionMetric& metric : experiment.metrics) {
     out.push_back({metric.name, metric.unit, metric.name, false});
   }
+  for (const telemetry::Rule& rule : experiment.rules) {
+    out.push_back({ruleMetric(rule), "", "Times broken: " + rule.name, false});
+  }
   // A measured time differs from run to run, which those of reference processes must not.
   if (experiment.hasTeamPrograms()) {
     out.push_back({"times_real_time", "", "Speed (times real time)", false});

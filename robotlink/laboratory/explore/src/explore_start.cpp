@@ -13,49 +13,19 @@
 #include <robotlink/models/robot_models.h>
 #include <robotlink/rollout/rollout_start.h>
 #include <robotlink/rollout/rollouts.h>
+#include <robotlink/session/ball_sighting.h>
 #include <robotlink/session/moment_scenario.h>
 #include <simcore/world/field.h>
 
 namespace pitchboard::link {
 namespace {
 
-constexpr double unknownSigma = 0.3;  // m, of a robot that does not tell its uncertainty
-constexpr double headingSigma = 0.1;  // rad; team messages do not contain it
-constexpr double minBallSigma = 0.03, ballSigmaPerMetre = 0.08;
+constexpr double headingSigma = 0.1;                 // rad; team messages do not contain it
 constexpr double longestAgo = 10.0, stepAgo = 0.25;  // s, in the search for a ball
 constexpr double speedOver = 0.5;                    // s between the two sightings of a speed
 constexpr double fastestSeen = 6.0;                  // m/s: what is faster is two different balls
 constexpr double setPlayLasts = 10.0;  // s that the other team keeps away if nobody tells
 constexpr double keeperWithin = 1.2;   // m from the own goal's centre
-
-struct BallSighting {
-  Point place;
-  double sigma = minBallSigma;
-};
-
-/// Where most robots of one team agree that the ball is, else where the nearest one sees it. Robots
-/// that do not know where they are do not count.
-std::optional<BallSighting> ballSeenIn(const MatchFrame& frame) {
-  std::vector<RobotFrame> sure;
-  for (const RobotFrame& robot : frame.robots) {
-    if (robot.belief && robot.ball && !robot.timedOut()) sure.push_back(robot);
-  }
-  if (sure.empty()) return {};
-  const auto nearest = std::ranges::min_element(
-      sure, {}, [](const RobotFrame& robot) { return robot.ball->distance; });
-  BallSighting seen;
-  seen.place = nearest->ball->place;
-  seen.sigma = std::hypot(nearest->sigma.value_or(unknownSigma),
-                          std::max(minBallSigma, ballSigmaPerMetre * nearest->ball->distance));
-  const std::vector<TeamBall> balls = agreedBalls(sure);
-  const auto agreed = std::ranges::max_element(balls, {}, &TeamBall::agree);
-  if (agreed != balls.end()) {
-    seen.place = agreed->position;
-    seen.sigma = std::max(minBallSigma, agreed->spread);
-  }
-  if (!std::isfinite(seen.place.x) || !std::isfinite(seen.place.y)) return {};
-  return seen;
-}
 
 class StartMaker {
  public:

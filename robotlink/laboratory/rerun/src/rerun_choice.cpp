@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 
 #include <base/lined_json.h>
@@ -16,8 +17,6 @@
 
 namespace pitchboard::link {
 namespace {
-
-constexpr std::string_view ours = "reference";
 
 bool isFile(const std::string& path) {
   struct stat info {};
@@ -55,11 +54,14 @@ Result<void> findProgram(RerunChoice& choice, const RerunProcess& process) {
                    "--process " + process.name);
   }
   if (first.find('/') == std::string::npos && isInPath(first)) return {};
-  std::vector<std::string_view> names{ours};
+  std::vector<std::string_view> names{referenceProgram};
   if (process.name == "decision") {
     for (const BehaviourInfo& behaviour : behaviours()) names.push_back(behaviour.name);
   }
-  return failure(ErrorCode::NotFound, unknownName("program or behaviour", process.program, names),
+  return failure(ErrorCode::NotFound,
+                 unknownName("program or behaviour", process.program, names) +
+                     "; files are looked for in " + std::filesystem::current_path().string() +
+                     " and beside the recording.",
                  "--process " + process.name);
 }
 
@@ -96,6 +98,12 @@ Result<RerunChoice> fromProfile(RerunChoice choice, const RerunProcess& process)
 
 }  // namespace
 
+std::string besideRecording(const std::string& program, const std::string& session) {
+  if (program.empty() || program.front() == '/' || isFile(program)) return program;
+  const auto beside = std::filesystem::absolute(session).parent_path() / program;
+  return isFile(beside.string()) ? beside.string() : program;
+}
+
 Result<RerunChoice> rerunChoice(const RerunProcess& process, const RerunRobot& robot) {
   RerunChoice choice;
   choice.process = process.name;
@@ -113,7 +121,7 @@ Result<RerunChoice> rerunChoice(const RerunProcess& process, const RerunRobot& r
   }
   const bool isBehaviour =
       process.name == "decision" && (text.front() == '{' || findBehaviour(text) != nullptr);
-  choice.isInside = choice.isInside || text == ours || isBehaviour;
+  choice.isInside = choice.isInside || text == referenceProgram || isBehaviour;
   if (choice.isInside && !findProcess(process.name)) {
     std::vector<std::string_view> names;
     for (const ProcessInfo& info : referenceProcesses()) names.push_back(info.name);

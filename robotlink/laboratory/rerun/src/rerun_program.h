@@ -66,8 +66,10 @@ struct RerunChoice {
   bool realClock = false;
 };
 
-/// Reads a choice. `recorded` is the behaviour of the recording. Fails with NotFound, with the
-/// names that are known.
+/// RerunProcess::program of our own processes.
+inline constexpr std::string_view referenceProgram = "reference";
+
+/// Reads a choice. Fails with NotFound, with the names that are known.
 Result<RerunChoice> rerunChoice(const RerunProcess& process, const RerunRobot& robot);
 
 /// Makes a process of ours that starts after `tick`. With `resumes` it starts with what stands on

@@ -108,6 +108,7 @@ Result<RerunPlan> RerunRun::plan(const telemetry::SessionReader& session,
                                                                    : RerunPlan::Known::Name,
                             output.isRecorded});
   }
+  plan.recorded = run.recordedProgram(options.processes.front().name);
   plan.missing = run.m_missing;
   plan.notes = run.m_notes;
   plan.start = run.m_start;
@@ -177,6 +178,20 @@ Result<void> RerunRun::readScenario() {
   return {};
 }
 
+std::string RerunRun::recordedProgram(const std::string& process) const {
+  if (!m_scenario) return {};
+  if (!m_runtime.isChosen()) return std::string(referenceProgram);
+  if (process == "decision" && !m_runtime.decision.empty()) return m_runtime.decision;
+  RuntimeChoice runtime = m_runtime;
+  runtime.profile = besideRecording(runtime.profile, m_session.file().contents().name);
+  if (const auto profile = loadRuntime(runtime)) {
+    const auto found = std::ranges::find(profile->processes, process, &ProfileProcess::name);
+    if (found == profile->processes.end()) return {};
+    if (found->isReference()) return std::string(referenceProgram);
+  }
+  return runtimeChoiceToText(runtime);
+}
+
 std::uint64_t RerunRun::tickOf(double time) const {
   return static_cast<std::uint64_t>(std::llround(std::max(0.0, time) * m_tickRate));
 }
@@ -214,7 +229,7 @@ void RerunRun::knowRobot() {
       if (one.identity.id != m_robot.id) continue;
       m_robot.parameters = one.parameters;
       m_robot.model = one.model;
-      m_hasTeamPrograms = m_scenario->runtimeOf(one).isChosen();
+      m_runtime = m_scenario->runtimeOf(one);
     }
   }
   std::erase_if(m_planned, [this](const BlackboardWrite& write) {
@@ -250,6 +265,14 @@ Result<void> RerunRun::chooseProcesses() {
                      "--process");
     }
     m_choices.push_back(TRY(rerunChoice(process, m_robot)));
+    const std::string recorded = recordedProgram(process.name);
+    if (m_options.isUnchanged && m_choices.back().isInside && !recorded.empty() &&
+        recorded != referenceProgram) {
+      return failure(ErrorCode::InvalidArgument,
+                     "In this recording " + process.name + " was " + recorded + ", so \"" +
+                         process.program + "\" is not the unchanged program.",
+                     "--process");
+    }
   }
   std::ranges::stable_sort(m_choices, {}, [](const RerunChoice& choice) {
     return choice.isInside ? turnOf(choice.process) : lastTurn;
@@ -257,7 +280,7 @@ Result<void> RerunRun::chooseProcesses() {
   m_feed->setColumns(m_session.groups()[m_group].info);
   const BehaviourInfo* behaviour = findBehaviour(m_robot.behaviour);
   const Variable* target = m_catalog.find("DECISION_TARGET");
-  const bool usesPlanning = behaviour && behaviour->usesPose && !m_hasTeamPrograms;
+  const bool usesPlanning = behaviour && behaviour->usesPose && !m_runtime.isChosen();
   const bool planned = (target && m_feed->isRecorded(*target)) || usesPlanning;
   if (!planned) m_feed->exclude("planning");
   return {};

@@ -70,6 +70,8 @@ class RerunRun {
   RobotUid rerunUid() const;
   Result<void> pace();
   std::uint64_t tickOf(double time) const;
+  /// What ran as this process, as RerunProcess::program; empty: the recording does not tell.
+  std::string recordedProgram(const std::string& process) const;
   bool goesOn() const;
 
   const telemetry::SessionReader& m_session;
@@ -84,7 +86,7 @@ class RerunRun {
   std::optional<BlackboardBridge> m_bridge;
   bool m_hasWorld = false;
   bool m_missedWorld = false;
-  bool m_hasTeamPrograms = false;  // instead of ours, in the recording
+  RuntimeChoice m_runtime;  // programs that the robot had in the recording; not chosen: ours
   double m_tickRate = 100.0;
   double m_rowInterval = 0.0;
   double m_start = 0.0, m_begin = 0.0, m_end = 0.0;  // s: played from, compared from and until

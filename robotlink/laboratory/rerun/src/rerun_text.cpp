@@ -180,6 +180,10 @@ std::vector<std::string> rerunVerdicts(const RerunResult& result) {
     out.emplace_back(
         "The recording lacks changes of what the process reads, so these differences are no "
         "evidence about the program. Run the unchanged program with --same first.");
+  } else if (!result.inLockStep && unchanged.empty()) {
+    out.emplace_back(
+        "The program is not in lock-step, so some of these differences may come without a change. "
+        "Run the unchanged program with --same first.");
   }
   return out;
 }

@@ -79,6 +79,8 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
      "studio"},
     {Kind::RerunDiffers, "rerun-differs", "differs from the recording", Shape::Warning, 4, false,
      false, ""},
+    {Kind::LetGo, "let-go", "robots stopped following the recording", Shape::Started, 6, false,
+     false, "studio"},
     {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
     {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},

@@ -103,6 +103,14 @@ void MatchEvents::lateCycle(const sim::WorldState& state, RobotId robot, const s
   add(std::move(event));
 }
 
+void MatchEvents::letGo(const FollowState& following) {
+  MatchEvent event;
+  event.kind = MatchEventKind::LetGo;
+  event.time = following.letGoAt.value_or(0.0);
+  event.detail = following.why;
+  add(std::move(event));
+}
+
 void MatchEvents::take(std::vector<MatchEvent>& out) {
   out.insert(out.end(), std::make_move_iterator(m_events.begin()),
              std::make_move_iterator(m_events.end()));

@@ -15,6 +15,7 @@
 
 #include <robotlink/frame/ball_sight.h>
 #include <robotlink/frame/match_event.h>
+#include <robotlink/match/followed_recording.h>
 #include <robotlink/processes/process_manager.h>
 #include <simcore/simulation/simulation.h>
 
@@ -22,7 +23,7 @@ namespace pitchboard::link {
 
 class MatchEvents {
  public:
-  MatchEvents() { m_events.reserve(maxKept); }  // ticks allocate nothing
+  MatchEvents() { m_events.reserve(16); }  // most ticks allocate nothing
   /// Between steps: makes events of the referee's calls since the last step, so that they are
   /// reported while the match is paused, too.
   void called(sim::Simulation& simulation);
@@ -37,6 +38,8 @@ class MatchEvents {
   void look(const sim::WorldState& state, std::string_view finishedBy);
   /// What the supervisor tells of processes.
   void drainNews(const sim::WorldState& state, const std::vector<ProcessNews>& news);
+  /// Robots stopped following a recording.
+  void letGo(const FollowState& following);
   /// A team's program, which the match does not wait for any longer.
   void notAttached(const sim::WorldState& state, RobotId robot, const std::string& process,
                    std::string detail);

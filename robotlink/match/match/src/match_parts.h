@@ -5,12 +5,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/match/match_drawings.h>
 #include <robotlink/match/robots_memory.h>
 #include <robotlink/match/simulated_match.h>
 
+#include "following.h"
 #include "lock_step.h"
 #include "match_base.h"
 #include "match_events.h"
@@ -19,7 +21,12 @@
 namespace pitchboard::link {
 
 struct SimulatedMatch::Parts {
-  explicit Parts(MatchBase all) : Parts(all, all.catalog->withExtension()) {}
+  explicit Parts(MatchBase all)
+      : Parts(all, all.catalog == &VariableCatalog::published()
+                       ? std::nullopt
+                       : std::optional(all.catalog->withExtension())) {}
+  Parts(MatchBase& all, const std::optional<VariableCatalog>& ofTeam)
+      : Parts(all, ofTeam ? *ofTeam : VariableCatalog::extended()) {}
   Parts(MatchBase& all, const VariableCatalog& extended)
       : base(std::move(all)),
         extendedBridge(RobotVariables(extended)),
@@ -31,7 +38,9 @@ struct SimulatedMatch::Parts {
   void deliverReferee(bool again = false);
   void followSides();
   void followJump();
+  void letGo();
   void startAnew();
+  void startAnew(RobotSlot& slot);
   void playThrough(const MomentPast& past);
   void restore(const RobotsMemory& memory);
   Result<void> restore(const Moment& moment);
@@ -41,6 +50,7 @@ struct SimulatedMatch::Parts {
   BlackboardBridge extendedBridge;  // of robots whose decision knows the extension of the map
   RefereeVariables refereeVariables;
   MatchEvents events;
+  Following following;
   MatchReferee referee;
   std::unique_ptr<MatchDrawings> drawings;
   RobotSlots slots{base};

@@ -51,6 +51,7 @@ Result<void> SimulatedMatch::Parts::restore(const Moment& moment) {
   }
   // Everything that can fail comes before anything of the present match is given up.
   TRY(slots.become(moment));
+  following.begin(nullptr);
   base.commands.assign(slots.all().size(), {});
   base.scenario.settings = moment.state.settings;
   const auto writeBoards = [&] {
@@ -78,12 +79,16 @@ void SimulatedMatch::Parts::startAnew() {
   }
   for (const auto& slot : slots.all()) {
     slot->orders = {};
-    for (const auto& process : slot->processes) {
-      if (!process->inside) continue;
-      slot->facesLeft = slots.identityOf(slot->id).imuStartsAt180;
-      process->startTick = base.simulation.state().tick;
-      if (slots.startInside(*slot, *process)) process->inside->resume(slot->board);
-    }
+    startAnew(*slot);
+  }
+}
+
+void SimulatedMatch::Parts::startAnew(RobotSlot& slot) {
+  for (const auto& process : slot.processes) {
+    if (!process->inside) continue;
+    slot.facesLeft = slots.identityOf(slot.id).imuStartsAt180;
+    process->startTick = base.simulation.state().tick;
+    if (slots.startInside(slot, *process)) process->inside->resume(slot.board);
   }
 }
 

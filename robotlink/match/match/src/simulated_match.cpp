@@ -171,13 +171,37 @@ void SimulatedMatch::tick() {
   for (std::size_t i = 0; i < base.commands.size(); ++i) {
     base.commands[i] = m_parts->bridge.read(robots().all()[i]->board);
   }
+  m_parts->following.place(base.simulation, base.commands);
   m_parts->advance(false);
+}
+
+void SimulatedMatch::follow(std::shared_ptr<const FollowedRecording> recording) {
+  m_parts->following.begin(std::move(recording));
+}
+
+const FollowState& SimulatedMatch::followState() const {
+  return m_parts->following.state();
+}
+
+/// Robots that followed go on by themselves, from where they stand: their processes have seen
+/// motions that they did not command.
+void SimulatedMatch::Parts::letGo() {
+  events.letGo(following.state());
+  for (const FollowedRobot& robot : following.recording()->robots) {
+    RobotSlot* slot = robot.follows ? slots.find(robot.id) : nullptr;
+    if (!slot) continue;
+    constexpr double sigma = 0.1;  // m
+    writeBelief({*base.simulation.robotPose(robot.id), sigma}, base.scenario.settings.field,
+                base.variables, slot->board);
+    startAnew(*slot);
+  }
 }
 
 /// One tick with the commands that were read. If it is played `again`, its events were reported
 /// before.
 void SimulatedMatch::Parts::advance(bool again) {
   base.simulation.step(base.commands, base.percepts);
+  const bool letsGo = following.settle(base.simulation);
   if (!again) events.stepped(base.simulation);
   events.sensed(base.simulation.state(), base.percepts, again);
   for (const sim::Event& event : base.simulation.events()) {
@@ -189,6 +213,7 @@ void SimulatedMatch::Parts::advance(bool again) {
     RobotSlot& slot = *slots.all()[i];
     (slot.extended ? extendedBridge : bridge).publish(base.percepts[i], slot.board);
   }
+  if (letsGo) letGo();
   expectedTick = base.simulation.state().tick;
   if (base.simulation.state().game) {
     followSides();

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -185,13 +186,14 @@ Result<std::string> pathOf(const SpawnRequest& request) {
     return failure(ErrorCode::InvalidArgument, "cannot start a process: no program is given");
   }
   const std::string& program = request.command.front();
-  const std::string path = inPath(program);
+  std::string path = inPath(program);
   if (path.empty()) {
     return failure(ErrorCode::NotFound, "cannot start '" + program +
                                             "': no such program in PATH; "
                                             "write ./ before the name of a file in this folder");
   }
   struct stat status {};
+  std::error_code unused;
   if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
     return cannotStart(program, EISDIR);
   }
@@ -199,6 +201,15 @@ Result<std::string> pathOf(const SpawnRequest& request) {
       (::stat(request.directory.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))) {
     return failure(ErrorCode::NotFound, "cannot start '" + program + "' in the folder '" +
                                             request.directory + "': no such folder");
+  }
+  // The child looks for a relative path in its own folder.
+  const std::filesystem::path folder = request.directory.empty()
+                                           ? std::filesystem::current_path(unused)
+                                           : std::filesystem::path(request.directory);
+  if (path.front() != '/' && ::stat((folder / path).c_str(), &status) != 0 && errno == ENOENT) {
+    return failure(ErrorCode::NotFound, "cannot start '" + program +
+                                            "': there is no such file in " + folder.string() +
+                                            "; write the whole path, or start from its folder");
   }
   return path;
 }

@@ -30,7 +30,8 @@ std::string circle(const Point& centre, double radius, const std::string& style)
 
 }  // namespace
 
-std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories) {
+std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories,
+                     const std::string& below) {
   const Point corner{field.halfLength(), field.halfWidth()};
   const Point wall{corner.x + field.border, corner.y + field.border};
   const auto filled = [](const char* colour) { return std::string("fill=\"") + colour + '"'; };
@@ -39,7 +40,7 @@ std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajector
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + cm(-wall.x) + ' ' +
                     cm(-wall.y) + ' ' + cm(2 * wall.x) + ' ' + cm(2 * wall.y) + "\">";
   svg += rect({{-wall.x, -wall.y}, wall}, filled(border));
-  svg += rect({{-corner.x, -corner.y}, corner}, filled(grass));
+  svg += rect({{-corner.x, -corner.y}, corner}, filled(grass)) + below;
   const sim::FieldLines shapes = sim::fieldLines(field, field.lineWidth);
   for (const auto& line : shapes.lines) svg += rect(line, filled(lines));
   for (const auto& goal : shapes.goals) svg += rect(goal, outline);
@@ -64,6 +65,14 @@ std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajector
     svg += "\" fill=\"none\" stroke-linejoin=\"round\" stroke=\"" + one.colour +
            "\" stroke-opacity=\"" + opacity + "\" stroke-width=\"" + cm(one.width) + "\"/>";
     if (one.points.empty()) continue;
+    if (!one.label.empty()) {
+      const Point& end = one.points.back();
+      svg += circle(end, 0.26, filled(one.colour.c_str())) + "<text x=\"" + cm(end.x) + "\" y=\"" +
+             cm(-end.y + 0.09) + "\" text-anchor=\"middle\" font-family=\"sans-serif\" " +
+             "font-weight=\"700\" font-size=\"26\" fill=\"#16181b\">" + escaped(one.label) +
+             "</text>";
+      continue;
+    }
     svg += circle(one.points.back(), 0.05,
                   "fill=\"" + one.colour + "\" fill-opacity=\"" + opacity + '"');
   }

@@ -14,11 +14,6 @@ constexpr double maxStep = 2.5;          // s; a longer gap between moments coun
 constexpr double minMove = 0.1;          // m; believed places tremble by less
 constexpr double maxWalkingSpeed = 1.5;  // m/s; a belief that moves faster jumps to another place
 
-// A pass: a team-mate has the ball next.
-constexpr double touchReach = 0.3;    // m from the middle of a robot to the ball
-constexpr double minPass = 0.5;       // m
-constexpr double maxPassTime = 15.0;  // s
-
 /// The part of the curves in which this time lies.
 std::size_t partOf(double time, telemetry::TimeRange range) {
   const double length = range.end - range.begin;
@@ -74,8 +69,7 @@ void MatchTally::take(const TallyMoment& moment, bool isBefore) {
     }
   }
   m_lastTime = moment.time;
-  followPass(moment);
-  m_ball = moment.ball;
+  followPlay(moment, isBefore);
 }
 
 namespace {
@@ -140,6 +134,7 @@ void MatchTally::takeRobot(const TallyMoment& moment, const TallyRobot& seen, bo
     if (*seen.works[i]) robot.worked[i] += step;
   }
   if (!seen.walked && seen.place) takeWay(seen, robot);
+  takePlace(moment, seen, isBefore ? 0.0 : step, out.heat);
 }
 
 /// Of believed places, without jumps.
@@ -177,37 +172,84 @@ void MatchTally::takeTeam(const TallyMoment& moment, TeamColor colour, const Tal
   team.out.byHalf[half] += *seen.score - std::exchange(team.lastInHalf, seen.score).value_or(0);
 }
 
-/// A kick after which a team-mate is the next one at the ball.
-void MatchTally::followPass(const TallyMoment& moment) {
-  if (!moment.ball || !moment.isInPlay) m_kick.reset();
-  const TallyRobot* nearest = nullptr;
-  double least = touchReach;
+void MatchTally::followPlay(const TallyMoment& moment, bool isBefore) {
+  std::vector<RobotUid> kicked;
   for (const TallyRobot& robot : moment.robots) {
     Robot& known = m_robots.at(robot.uid);
-    const bool kicked = known.kickCount() > std::exchange(known.kicksBefore, known.kickCount());
-    if (!moment.ball || !robot.place) continue;
-    const double away = distance(*robot.place, *moment.ball);
-    if (away < least && !robot.penalised) {
-      least = away;
-      nearest = &robot;
-    }
-    if (kicked && moment.isInPlay) {
-      m_kick = {robot.uid, robot.team, moment.time, m_ball.value_or(*moment.ball)};
+    const std::uint32_t before = std::exchange(known.kicksBefore, known.kickCount());
+    if (known.kickCount() > before) kicked.push_back(robot.uid);
+  }
+  m_follower.take(moment, kicked, isBefore);
+}
+
+void MatchTally::takePlace(const TallyMoment& moment, const TallyRobot& seen, double seconds,
+                           HeatMap& heat) {
+  if (!seen.place || seen.penalised || seconds <= 0.0) return;
+  const double x = m_field.halfLength() + m_field.border, y = m_field.halfWidth() + m_field.border;
+  if (heat.seconds.empty()) {
+    heat.columns = static_cast<int>(std::ceil(2.0 * x / HeatMap::square));
+    heat.rows = static_cast<int>(std::ceil(2.0 * y / HeatMap::square));
+    heat.seconds.resize(static_cast<std::size_t>(heat.columns * heat.rows));
+  }
+  const auto team = moment.teams.find(seen.team);
+  const bool turns = team != moment.teams.end() && !team->second.attacksRight.value_or(true);
+  const double sign = turns ? -1.0 : 1.0;
+  const auto index = [](double at, int most) {
+    return std::clamp(static_cast<int>(std::floor(std::clamp(at, -1e3, 1e3) / HeatMap::square)), 0,
+                      most - 1);
+  };
+  const int column = index(sign * seen.place->x + x, heat.columns);
+  const int row = index(sign * seen.place->y + y, heat.rows);
+  heat.seconds[static_cast<std::size_t>(row * heat.columns + column)] +=
+      static_cast<float>(seconds);
+}
+
+/// Plays of robots and teams, with what robots missed.
+void MatchTally::countPlays(MatchStatistics& out) const {
+  out.plays = m_follower.events();
+  out.goals = m_follower.goals();
+  for (const RobotSummary& robot : out.robots) {
+    if (!robot.link) continue;
+    for (const RobotSummary::Outage& outage : robot.link->outages) {
+      PlayEvent event;
+      event.kind = PlayKind::Offline;
+      event.outcome = outage.isOver ? PlayOutcome::None : PlayOutcome::GoesOn;
+      event.time = outage.begin;
+      event.end = outage.end;
+      event.team = robot.team;
+      event.robot = robot.uid;
+      event.name = robot.name;
+      out.plays.push_back(std::move(event));
     }
   }
-  if (!m_kick || !nearest || distance(m_kick->from, *moment.ball) < minPass) return;
-  // A robot that gets its own kick back has not passed.
-  if (nearest->uid != m_kick->robot && nearest->team == m_kick->team &&
-      moment.time - m_kick->time <= maxPassTime) {
-    ++m_robots.at(m_kick->robot).out.passes;
+  std::ranges::stable_sort(out.plays, {}, &PlayEvent::time);
+  const auto count = [&out](RobotUid uid, auto PlayCounts::*which) {
+    const auto robot = std::ranges::find(out.robots, uid, &RobotSummary::uid);
+    if (robot == out.robots.end()) return;
+    ++(robot->plays.*which);
+    const auto team = std::ranges::find(out.teams, robot->team, &TeamSummary::team);
+    if (team != out.teams.end()) ++(team->plays.*which);
+  };
+  for (const PlayEvent& play : out.plays) {
+    if (play.kind == PlayKind::Pass && play.outcome == PlayOutcome::Completed) {
+      count(play.robot, &PlayCounts::passes);
+    } else if (play.kind == PlayKind::Pass && play.outcome == PlayOutcome::Intercepted) {
+      count(play.robot, &PlayCounts::intercepted);
+    } else if (play.kind == PlayKind::Shot) {
+      count(play.robot, &PlayCounts::shots);
+      if (play.outcome != PlayOutcome::Wide) count(play.robot, &PlayCounts::onTarget);
+    } else if (play.kind == PlayKind::BallWon) {
+      count(play.robot, &PlayCounts::wins);
+      count(play.other, &PlayCounts::losses);
+    }
   }
-  m_kick.reset();
 }
 
 MatchStatistics MatchTally::statistics(telemetry::TimeRange range) const {
   MatchStatistics out;
   out.range = range;
   out.truthKnown = m_hasTruth;
+  out.field = m_field;
   std::map<TeamColor, TeamSummary> teams;
   for (const auto& [colour, team] : m_teams) teams.emplace(colour, team.out);
   for (const auto& [uid, robot] : m_robots) {
@@ -245,7 +287,6 @@ MatchStatistics MatchTally::statistics(telemetry::TimeRange range) const {
     team.ballSeconds += s.ballSeconds;
     team.kicks += s.kicks;
     team.falls += s.falls;
-    team.passes += s.passes;
     team.penalties += s.penalties;
     team.distance += s.distance.value_or(0.0);
     out.robots.push_back(std::move(s));
@@ -264,6 +305,7 @@ MatchStatistics MatchTally::statistics(telemetry::TimeRange range) const {
   std::ranges::stable_sort(out.teams, {}, [&](const TeamSummary& team) {
     return std::ranges::find(out.robots, team.team, &RobotSummary::team) - out.robots.begin();
   });
+  countPlays(out);
   return out;
 }
 

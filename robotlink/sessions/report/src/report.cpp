@@ -14,23 +14,14 @@
 #include <robotlink/report/session_tally.h>
 #include <telemetry/wire/base64.h>
 
+#include "report_parts.h"
+
 namespace pitchboard::link {
 namespace {
 
 constexpr double width = 440, height = 110;                    // of the drawing
 constexpr double left = 40, right = 6, top = 10, bottom = 20;  // room round the curve
 constexpr double plotWidth = width - left - right, plotHeight = height - top - bottom;
-
-/// "1:02:05", "12:05", "0:07".
-std::string clockText(double seconds) {
-  const auto total = static_cast<long long>(std::clamp(std::floor(seconds), -1e9, 1e9));
-  const long long s = std::abs(total);
-  const auto two = [](long long value) { return (value < 10 ? "0" : "") + std::to_string(value); };
-  const std::string sign = total < 0 ? "−" : "";
-  if (s >= 3600)
-    return sign + std::to_string(s / 3600) + ':' + two(s / 60 % 60) + ':' + two(s % 60);
-  return sign + std::to_string(s / 60) + ':' + two(s % 60);
-}
 
 std::string frame(const std::string& highest, telemetry::TimeRange range,
                   const std::string& inside) {
@@ -116,13 +107,6 @@ std::string shareChart(const std::vector<double>& shares, telemetry::TimeRange r
 constexpr std::size_t maxEvents = 5000;
 constexpr double lowUptime = 0.9;
 
-std::string capital(std::string_view word) {
-  std::string out(word);
-  if (!out.empty() && out[0] >= 'a' && out[0] <= 'z')
-    out[0] = static_cast<char>(out[0] - 'a' + 'A');
-  return out;
-}
-
 std::string wallText(telemetry::WallTime time) {
   if (time.time_since_epoch().count() <= 0) return {};
   const std::time_t seconds = std::chrono::system_clock::to_time_t(
@@ -136,19 +120,6 @@ std::string wallText(telemetry::WallTime time) {
   return text;
 }
 
-std::string cell(const std::string& text, const char* kind = "") {
-  return std::string("<td") + (*kind ? std::string(" class=\"") + kind + '"' : "") + '>' + text +
-         "</td>";
-}
-
-std::string teamClass(TeamColor team) {
-  return std::string(info(team).name);
-}
-
-std::string titleOf(const TeamSummary& team) {
-  return team.name.empty() ? capital(info(team.team).name) : escaped(team.name);
-}
-
 /// "blue, team 12 · by half 1 + 0".
 std::string teamFacts(const TeamSummary& team) {
   std::string out(info(team.team).name);
@@ -157,11 +128,6 @@ std::string teamFacts(const TeamSummary& team) {
     out += (i == 0 ? " · by half " : " + ") + std::to_string(team.byHalf[i]);
   }
   return out;
-}
-
-std::string badge(const RobotSummary& robot) {
-  return "<span class=\"badge " + teamClass(robot.team) + "\">" + escaped(robot.name) + "</span>" +
-         (robot.ownName.empty() ? "" : " " + escaped(robot.ownName));
 }
 
 std::string head(const ReportContent& c) {
@@ -191,8 +157,8 @@ std::string teams(const MatchStatistics& s) {
            (team.score ? std::to_string(*team.score) : "–") + "</b><span class=\"quiet\">" +
            teamFacts(team) + "<br>" + clockText(team.ballSeconds) + " with the ball · " +
            std::to_string(team.kicks) + (team.kicks == 1 ? " kick" : " kicks") + " · " +
-           std::to_string(team.passes) + (team.passes == 1 ? " pass" : " passes") + " · " +
-           std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
+           std::to_string(team.plays.passes) + (team.plays.passes == 1 ? " pass" : " passes") +
+           " · " + std::to_string(team.falls) + (team.falls == 1 ? " fall" : " falls") + " · " +
            fixed(team.distance, 0) + " m</span></div>\n";
   }
   return out + "</div>\n";
@@ -213,23 +179,30 @@ std::string robots(const MatchStatistics& s) {
   std::string out = "<h2>Robots</h2>\n";
   if (s.robots.empty()) return out + "<p class=\"quiet\">No robot was recorded.</p>\n";
   out +=
-      "<div class=\"scroll\"><table><thead><tr><th class=\"l\">Robot</th><th>Distance</th>"
-      "<th>Kicks</th><th>Passes</th><th>Falls</th><th>Penalties</th><th>With the ball</th>";
+      "<div class=\"scroll\"><table class=\"sorts\"><thead><tr><th class=\"l\">Robot</th>"
+      "<th>Distance</th><th>Kicks</th><th>Passes</th><th>Shots</th><th>Balls won</th><th>Balls "
+      "lost</th><th>Falls</th><th>Penalties</th><th>With the ball</th>";
   if (s.truthKnown) out += "<th>Belief error, median</th><th>90 %</th>";
   out += "</tr></thead><tbody>\n";
   for (const RobotSummary& r : s.robots) {
     out += "<tr>" + cell(badge(r), "l") + cell(r.distance ? fixed(*r.distance, 1) + " m" : "–") +
-           cell(std::to_string(r.kicks)) + cell(std::to_string(r.passes)) +
-           cell(std::to_string(r.falls)) + cell(std::to_string(r.penalties)) +
-           cell(fixed(r.ballSeconds, 1) + " s");
+           cell(std::to_string(r.kicks)) + cell(std::to_string(r.plays.passes)) +
+           cell(std::to_string(r.plays.shots)) + cell(std::to_string(r.plays.wins)) +
+           cell(std::to_string(r.plays.losses)) + cell(std::to_string(r.falls)) +
+           cell(std::to_string(r.penalties)) + cell(fixed(r.ballSeconds, 1) + " s");
     if (s.truthKnown) {
       out += cell(r.errorMedian ? fixed(*r.errorMedian, 1) + " cm" : "–") +
              cell(r.error90 ? fixed(*r.error90, 1) + " cm" : "–");
     }
     out += "</tr>\n";
   }
-  out +=
-      "</tbody></table></div>\n<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
+  return out + "</tbody></table></div>\n";
+}
+
+std::string processes(const MatchStatistics& s) {
+  if (s.robots.empty()) return {};
+  std::string out =
+      "<h2>Processes</h2>\n<p class=\"quiet\">Share of the time in which "
       "each process reported that it was working.</p>\n<div class=\"scroll\"><table><thead><tr><th "
       "class=\"l\">"
       "Robot</th>";
@@ -275,10 +248,6 @@ std::string links(const MatchStatistics& s) {
         cell(r.link->minVolts ? fixed(*r.link->minVolts, 1) + " V" : "–") + "</tr>\n";
   }
   return out + "</tbody></table></div>\n";
-}
-
-std::string tenths(double seconds) {
-  return '.' + std::to_string(static_cast<int>(std::fmod(std::abs(seconds), 1.0) * 10.0));
 }
 
 /// When robots sent nothing, in order of time.
@@ -380,18 +349,25 @@ std::string reportHtml(const ReportContent& c) {
   out += escaped(c.title.empty() ? "Match report" : c.title) + "</title>\n<style>";
   out += reportStyle;
   out += "</style></head><body><main>\n";
-  out += head(c) + teams(c.statistics) + picture(c) + robots(c.statistics) + links(c.statistics) +
-         outages(c.statistics) + charts(c.statistics) + events(c);
+  out += head(c) + teams(c.statistics) + figuresSection(c.statistics) + goalsSection(c) +
+         robots(c.statistics) + setPlaysSection(c) + heatSection(c.statistics) + playsSection(c) +
+         charts(c.statistics) + picture(c) + processes(c.statistics) + links(c.statistics) +
+         outages(c.statistics) + events(c);
   out += "<footer>" + std::to_string(c.statistics.rows) + " rows, " +
          clockText(c.statistics.range.begin) + " to " + clockText(c.statistics.range.end) +
          (c.session.program.empty() ? "" : ", recorded by " + escaped(c.session.program)) +
-         ".</footer>\n</main></body></html>\n";
+         ".</footer>\n</main><script>";
+  out += reportScript;
+  out += "</script></body></html>\n";
   return out;
 }
 
 void keepRobots(ReportContent& content, const RobotChoice& robots) {
   std::erase_if(content.statistics.robots,
                 [&](const RobotSummary& robot) { return !robots.has(robot.uid, robot.name); });
+  std::erase_if(content.statistics.plays, [&](const PlayEvent& play) {
+    return !play.name.empty() && !robots.has(play.robot, play.name);
+  });
   std::erase_if(content.events, [&](const MatchEvent& event) {
     return !event.name.empty() && !robots.has(event.robot, event.name);
   });

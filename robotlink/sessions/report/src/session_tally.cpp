@@ -64,6 +64,9 @@ struct RowTally::Source {
         phase(findSlot(group, {"GAME_PHASE"})),
         half(findSlot(group, {"HALF"})),
         leftTeam(findSlot(group, {"LEFT_TEAM"})),
+        setPlay(findSlot(group, {"SET_PLAY"})),
+        setPlayTeam(findSlot(group, {"SET_PLAY_TEAM"})),
+        kickOffTeam(findSlot(group, {"KICK_OFF_TEAM"})),
         numbers{findSlot(group, {"TEAM1_NUMBER"}), findSlot(group, {"TEAM2_NUMBER"})},
         colours{findSlot(group, {"TEAM1_COLOUR"}), findSlot(group, {"TEAM2_COLOUR"})},
         flags{findSlot(group, FieldMeaning::Control), findSlot(group, FieldMeaning::Vision),
@@ -78,6 +81,7 @@ struct RowTally::Source {
     robot.name = group.name;
     robot.ownName = factsOf(group).name;
     robot.team = teamOf(group);
+    robot.radius = factsOf(group).radius_m.value_or(0.0);
     robot.order = factsOf(group).order.value_or(RobotOrder{true, keyOf(group)});
   }
 
@@ -89,6 +93,8 @@ struct RowTally::Source {
     robot.beliefError = known(error.read(row));
     const auto kind = static_cast<PenaltyKind>(penalty.readInt(row));
     robot.penalised = kind != PenaltyKind::None && kind != PenaltyKind::Substitute;
+    robot.penalty = kind;
+    robot.tellsKicks = robot.kicks.has_value();
     for (std::size_t f = 0; f < flags.size(); ++f) {
       if (flags[f].present()) robot.works[f] = flags[f].readOr(row, 0.0) != 0.0;
     }
@@ -101,6 +107,7 @@ struct RowTally::Source {
     score = {left.readInt(row), right.readInt(row)};
     moment.isInPlay = true;
     moment.half.reset();
+    moment.restart.reset();
     isRefereed = referee.readOr(row, 0.0) != 0.0;
     if (!isRefereed) return;
     const auto part = static_cast<GamePhase>(phase.readInt(row));
@@ -109,10 +116,19 @@ struct RowTally::Source {
     if (part == GamePhase::Normal || part == GamePhase::ExtraTime) {
       moment.half = halfOf(part == GamePhase::ExtraTime, half.readInt(row) == 1);
     }
+    const int kind = setPlay.readInt(row);
+    const bool isKickOff = static_cast<PlayState>(state.readInt(row)) == PlayState::Set;
+    const int taking = kind > 0    ? setPlayTeam.readInt(row, -1)
+                       : isKickOff ? kickOffTeam.readInt(row, -1)
+                                   : Game::noTeam;
     for (std::size_t i = 0; i < colours.size(); ++i) {
       const int colour = colours[i].readInt(row, -1);
       if (colour < 0 || static_cast<std::size_t>(colour) >= teamColors.size()) continue;
+      if (taking == static_cast<int>(i)) {
+        moment.restart = TallyRestart{static_cast<SetPlay>(kind), static_cast<TeamColor>(colour)};
+      }
       TallyTeam& team = moment.teams[static_cast<TeamColor>(colour)];
+      team.attacksRight = leftTeam.readInt(row) == static_cast<int>(i);
       team.number = numbers[i].readInt(row);
       team.score = leftTeam.readInt(row) == static_cast<int>(i) ? score.left : score.right;
     }
@@ -121,6 +137,7 @@ struct RowTally::Source {
   telemetry::GroupInfo info;
   RowSlot x, y, walked, kicks, falls, error, penalty;                                 // of a robot
   RowSlot ballX, ballY, left, right, referee, state, stopped, phase, half, leftTeam;  // a match
+  RowSlot setPlay, setPlayTeam, kickOffTeam;
   std::array<RowSlot, 2> numbers, colours;
   std::array<RowSlot, telemetry::processCount> flags;
   bool isRobot, isMatch, facesLeft, isRefereed = false;
@@ -129,7 +146,7 @@ struct RowTally::Source {
   std::array<std::optional<double>, telemetry::processCount> flagSeen{};  // s
 };
 
-RowTally::RowTally() = default;
+RowTally::RowTally(const sim::FieldSpec& field) : m_tally(field) {}
 RowTally::~RowTally() = default;
 
 telemetry::GroupId RowTally::addGroup(const telemetry::GroupInfo& info) {
@@ -176,6 +193,7 @@ TallyMoment RowTally::complete() const {
     if (match != m_sources.end() && !(*match)->isRefereed) {
       const sim::Score& score = (*match)->score;
       out.teams[robot.team].score = source.facesLeft ? score.right : score.left;
+      out.teams[robot.team].attacksRight = !source.facesLeft;
     }
   }
   return out;
@@ -233,7 +251,11 @@ TallyMoment liveMomentOf(const MatchFrame& frame) {
     robot.team = seen.identity.team;
     robot.link = seen.link;
     robot.penalised = seen.penalty && !seen.penalty->isSubstitute();
+    robot.penalty = seen.penalty ? seen.penalty->kind : PenaltyKind::None;
     robot.kicking = seen.decided && isKick(*seen.decided);
+    robot.tellsKicks = seen.decided.has_value();
+    robot.sigma = seen.sigma.value_or(0.0);
+    robot.radius = seen.radius;
     robot.fallen = seen.fallen;
     if (seen.poseKnown()) robot.place = seen.pose.position;
     robot.placeTime = out.time - telemetry::secondsOf(seen.link->age);
@@ -251,7 +273,9 @@ TallyMoment liveMomentOf(const MatchFrame& frame) {
         seen.ball && std::ranges::all_of(out.robots, [&](const auto& other) {
           return !other.ballDistance || seen.ball->distance <= *other.ballDistance;
         });
-    if (isNearest) out.ball = seen.ball->place;
+    if (!isNearest) continue;
+    out.ball = seen.ball->place;
+    out.ballSigma = seen.sigma.value_or(0.0);
   }
   if (!frame.game) return out;
   out.half = frame.game->period();
@@ -264,6 +288,13 @@ TallyMoment liveMomentOf(const MatchFrame& frame) {
     TallyTeam& team = out.teams[*colour];
     team.number = side.number;
     team.score = side.score;
+    const int index = static_cast<int>(&side - frame.game->teams.data());
+    team.attacksRight = frame.game->attacksRight(static_cast<std::size_t>(index));
+    const bool isKickOff = frame.game->state == PlayState::Set;
+    if (frame.game->setPlay() != SetPlay::None ? frame.game->setPlayTeam() == index
+                                               : isKickOff && frame.game->kickOff == index) {
+      out.restart = TallyRestart{frame.game->setPlay(), *colour};
+    }
     const std::string_view name = teamName(side.number, frame.teams);
     if (!name.empty()) team.name = name;
   }
@@ -274,8 +305,8 @@ namespace {
 
 template <class Rows>
 MatchStatistics countRows(const Rows& rows, std::size_t groups, telemetry::TimeRange range,
-                          const auto& infoOf) {
-  RowTally tally;
+                          const sim::FieldSpec& field, const auto& infoOf) {
+  RowTally tally(field);
   for (std::size_t i = 0; i < groups; ++i) tally.addGroup(infoOf(i));
   forEachHeldRow(rows, range.begin, [&](telemetry::GroupId id, const auto&, const auto& row) {
     if (row.time < range.begin && row.time > range.begin - maxAge) tally.append(id, row);
@@ -287,8 +318,9 @@ MatchStatistics countRows(const Rows& rows, std::size_t groups, telemetry::TimeR
 }
 
 MatchStatistics countFrames(const telemetry::SessionReader& session, telemetry::TimeRange range) {
-  MatchTally tally;
-  RecordedFrames frames(backdropOf(session));  // with the robots that sent variables only
+  const FrameSettings backdrop = backdropOf(session);
+  MatchTally tally(backdrop.field);
+  RecordedFrames frames(backdrop);  // with the robots that sent variables only
   const auto all = session.range();
   const double length = std::max(0.0, range.end - range.begin);
   const double step = std::max(tallyStep, length / maxMoments);
@@ -311,15 +343,20 @@ MatchStatistics countFrames(const telemetry::SessionReader& session, telemetry::
 
 }  // namespace
 
-MatchStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range) {
-  return countRows(rows, rows.groups(), range, [&](std::size_t i) {
+MatchStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range,
+                             const sim::FieldSpec& field) {
+  return countRows(rows, rows.groups(), range, field, [&](std::size_t i) {
     return rows.view(static_cast<telemetry::GroupId>(i))->info();
   });
 }
 
 MatchStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range) {
-  if (session.count(telemetry::SessionStream::LiveState) > 0) return countFrames(session, range);
-  return countRows(session, session.groups().size(), range,
+  const bool isImported = std::ranges::any_of(
+      session.groups(), [](const auto& group) { return !factsOf(group.info).recordedBy.empty(); });
+  if (isImported || session.count(telemetry::SessionStream::LiveState) > 0) {
+    return countFrames(session, range);
+  }
+  return countRows(session, session.groups().size(), range, backdropOf(session).field,
                    [&](std::size_t i) { return session.groups()[i].info; });
 }
 

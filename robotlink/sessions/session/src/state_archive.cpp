@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <robotlink/match/followed_recording.h>
+
 namespace pitchboard::link {
 
 std::optional<StateSegment> StateSegmenter::begin(const sim::WorldState& state) {
@@ -18,7 +20,9 @@ std::optional<StateSegment> StateSegmenter::ticked(const SimulatedMatch& match) 
   if (!m_open) return begin(state);
   if (state.tick == m_open->lastTick()) return {};  // a look at a match that stands still
   const auto commands = match.commands();
-  if (state.tick != m_open->lastTick() + 1 || commands.size() != m_open->robots()) {
+  // What a recording did to the world cannot be recomputed from commands, as a change by hand.
+  if (state.tick != m_open->lastTick() + 1 || commands.size() != m_open->robots() ||
+      match.followState().moved) {
     return begin(state);
   }
   m_open->add(commands);

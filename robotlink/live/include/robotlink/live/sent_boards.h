@@ -94,8 +94,9 @@ class SentBoards {
   struct Robot;
   Robot* robotOf(int number, const telemetry::Sender& sender, int place, telemetry::WallTime time);
   void describe(Robot& robot) const;
-  void append(Robot& robot, double time) const;
-  const NamedCatalog& catalogOf(const Robot& robot) const;
+  /// Makes the row of the newest sample; more of it may come, and its row is made again.
+  void append(Robot& robot) const;
+  const NamedCatalog& catalogOf(Robot& robot) const;
   telemetry::LinkHealth linkOf(const Robot& robot, telemetry::WallTime now) const;
 
   std::vector<NamedCatalog> m_catalogs;

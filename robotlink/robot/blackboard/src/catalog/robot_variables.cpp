@@ -26,6 +26,15 @@ struct Resolver {
 }  // namespace
 
 RobotVariables::RobotVariables(const VariableCatalog& catalog) {
+  // Every process of a simulated robot needs those of the built-in maps.
+  static const RobotVariables published(VariableCatalog::published(), LookedUp{});
+  static const RobotVariables extended(VariableCatalog::extended(), LookedUp{});
+  *this = &catalog == &VariableCatalog::published()  ? published
+          : &catalog == &VariableCatalog::extended() ? extended
+                                                     : RobotVariables(catalog, LookedUp{});
+}
+
+RobotVariables::RobotVariables(const VariableCatalog& catalog, LookedUp /*look*/) {
   Resolver names{catalog, missing};
   decisionActionA = names.intVar("DECISION_ACTION_A");
   decisionActionB = names.intVar("DECISION_ACTION_B");

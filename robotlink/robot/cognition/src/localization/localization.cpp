@@ -97,7 +97,6 @@ class Localization final : public CognitiveProcess {
     const auto* other = dynamic_cast<const Localization*>(&memory);
     if (!other) return false;
     m_filter = other->m_filter;
-    m_filter.expand();
     m_last = other->m_last;
     m_first = other->m_first;
     return true;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include <base/angles.h>
 #include <base/random.h>
@@ -47,7 +48,7 @@ int headingCell(float c, float s) {
 }
 
 /// Where the first of the largest stands. Lanes side by side are what compilers make vectors of.
-int firstLargest(const std::vector<float>& values) {
+int firstLargest(std::span<const float> values) {
   constexpr std::size_t lanes = 16;
   std::array<float, lanes> most;
   most.fill(values.front());
@@ -126,7 +127,6 @@ MonteCarloLocalization::MonteCarloLocalization(const sim::FieldSpec& field,
   }
   m_columns = static_cast<int>(std::ceil(lengthAll / m_parameters.kldCell)) + 1;
   m_rows = static_cast<int>(std::ceil(widthAll / m_parameters.kldCell)) + 1;
-  expand();
 }
 
 particles::Grid MonteCarloLocalization::grid() const {
@@ -150,6 +150,7 @@ void MonteCarloLocalization::reset(const Pose& pose, double sigma, std::optional
   reset();
   CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
   m_count = m_parameters.maxParticles;
+  makeRoom(m_count);
   for (int i = 0; i < m_count; ++i) {
     const double x = random.normal(pose.position.x, sigma);
     const double y = random.normal(pose.position.y, sigma);
@@ -176,6 +177,7 @@ void MonteCarloLocalization::spread(const LocalizationInput& input) {
   if (usable(input.imuYaw)) m_lastImu = input.imuYaw;
   CounterRandom random(m_seed, m_robot, NoiseStream::Behaviour, m_updates++);
   m_count = m_parameters.maxParticles;
+  makeRoom(m_count);
   for (int i = 0; i < m_count; ++i) {
     const double x = (2 * random.uniform() - 1) * m_halfLength;
     const double y = (2 * random.uniform() - 1) * m_halfWidth;
@@ -252,13 +254,14 @@ void MonteCarloLocalization::move(const LocalizationInput& input) {
   const auto rotation = static_cast<float>(
       input.inMotion ? p.turnSigma * time + p.walkShare * std::abs(turn) : p.restSigma * time);
 
-  for (Array* one : {&m_d, &m_a, &m_b}) m_noise.fillNormal(one->data(), m_count);
+  Scratch& noise = scratch();
+  for (Array* one : {&noise.d, &noise.a, &noise.b}) m_noise.fillNormal(one->data(), m_count);
   particles::kernels().move(
       poses(),
       {static_cast<float>(forward), static_cast<float>(left), static_cast<float>(turn), walk,
        rotation, static_cast<float>(m_halfLength + m_border),
        static_cast<float>(m_halfWidth + m_border)},
-      m_d.data(), m_a.data(), m_b.data());
+      noise.d.data(), noise.a.data(), noise.b.data());
 }
 
 int MonteCarloLocalization::weigh(const LocalizationInput& input, double& sum) {
@@ -299,7 +302,7 @@ double MonteCarloLocalization::weighImu(double yaw) {
   headings.bothWays = m_imuZero == ImuZero::Unknown;
   const double sigma = m_parameters.imuSigma;
   return particles::kernels().weighHeading(
-      poses(), m_weight.data(), m_a.data(), headings,
+      poses(), m_weight.data(), scratch().a.data(), headings,
       {static_cast<float>(1.0 / (sigma * sigma)), static_cast<float>(imuOutliers)});
 }
 
@@ -308,17 +311,21 @@ int MonteCarloLocalization::wantedParticles() {
   if (p.minParticles == p.maxParticles) return p.maxParticles;
   // Cells of the histogram that the resampled set will occupy: particles below half a mean weight
   // will most likely not be drawn.
-  ++m_stamp;
+  Scratch& used = scratch();
+  if (++used.stamp == 0) {  // the stamps of long ago would look new
+    std::ranges::fill(used.cellStamp, 0U);
+    used.stamp = 1;
+  }
   int occupied = 0;
   const float least = 0.5F / static_cast<float>(m_count);
-  particles::kernels().cellsOf(poses(), grid(), m_cells.data());
+  particles::kernels().cellsOf(poses(), grid(), used.cells.data());
   for (int i = 0; i < m_count; ++i) {
     if (m_weight[i] < least) continue;
-    const auto place = static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)]);
+    const auto place = static_cast<std::size_t>(used.cells[static_cast<std::size_t>(i)]);
     const auto heading = static_cast<std::size_t>(headingCell(m_now.c[i], m_now.s[i]));
     const std::size_t cell = place * headingCells + heading;
-    occupied += m_cellStamp[cell] != m_stamp;
-    m_cellStamp[cell] = m_stamp;
+    occupied += used.cellStamp[cell] != used.stamp;
+    used.cellStamp[cell] = used.stamp;
   }
   if (occupied < 2) return p.minParticles;
   const double k = occupied - 1;  // Fox (2003), equation 13: the Wilson-Hilferty approximation
@@ -336,14 +343,19 @@ void MonteCarloLocalization::resample(double resetShare) {
   double pointer = random.uniform() * stride;
   double cumulative = m_weight[0];
   int from = 0;
+  Particles& next = scratch().next;
   for (int i = 0; i < kept; ++i, pointer += stride) {
     while (pointer > cumulative && from + 1 < m_count) cumulative += m_weight[++from];
-    m_next.x[i] = m_now.x[from];
-    m_next.y[i] = m_now.y[from];
-    m_next.c[i] = m_now.c[from];
-    m_next.s[i] = m_now.s[from];
+    next.x[i] = m_now.x[from];
+    next.y[i] = m_now.y[from];
+    next.c[i] = m_now.c[from];
+    next.s[i] = m_now.s[from];
   }
-  std::swap(m_now, m_next);
+  makeRoom(n);
+  m_now.x.head(kept) = next.x.head(kept);
+  m_now.y.head(kept) = next.y.head(kept);
+  m_now.c.head(kept) = next.c.head(kept);
+  m_now.s.head(kept) = next.s.head(kept);
   if (m_parameters.kernel > 0.0) regularize(kept);
   for (int i = kept; i < n; ++i) put(i, drawFromSensors(random));
   m_count = n;
@@ -355,9 +367,10 @@ void MonteCarloLocalization::resample(double resetShare) {
 void MonteCarloLocalization::regularize(int count) {
   const auto width =
       static_cast<float>(m_parameters.kernel * std::min(m_belief.sigma, widestKernel));
-  for (Array* one : {&m_a, &m_b}) m_noise.fillNormal(one->data(), count);
-  m_now.x.head(count) += width * m_a.head(count);
-  m_now.y.head(count) += width * m_b.head(count);
+  Scratch& noise = scratch();
+  for (Array* one : {&noise.a, &noise.b}) m_noise.fillNormal(one->data(), count);
+  m_now.x.head(count) += width * noise.a.head(count);
+  m_now.y.head(count) += width * noise.b.head(count);
 }
 
 // The mean of all particles where they are one cluster. Else that of those within a metre of the
@@ -374,18 +387,23 @@ void MonteCarloLocalization::estimate() {
 }
 
 void MonteCarloLocalization::strongestCluster(particles::Mean& mean) {
-  particles::kernels().cellsOf(poses(), grid(), m_cells.data());
-  std::ranges::fill(m_cellWeight, 0.0F);
+  Scratch& used = scratch();
+  const auto weights =
+      std::span(used.cellWeight)
+          .first(static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows));
+  particles::kernels().cellsOf(poses(), grid(), used.cells.data());
+  std::ranges::fill(weights, 0.0F);
   for (int i = 0; i < m_count; ++i) {
-    m_cellWeight[static_cast<std::size_t>(m_cells[static_cast<std::size_t>(i)])] += m_weight[i];
+    weights[static_cast<std::size_t>(used.cells[static_cast<std::size_t>(i)])] += m_weight[i];
   }
-  const int best = firstLargest(m_cellWeight);
+  const int best = firstLargest(weights);
   const double cell_m = m_parameters.kldCell;
   const int column = best % m_columns, row = best / m_columns;
   const double x = (column + 0.5) * cell_m - m_halfLength - m_border;
   const double y = (row + 0.5) * cell_m - m_halfWidth - m_border;
-  mean = particles::kernels().meanNear(poses(), m_weight.data(), m_a.data(), static_cast<float>(x),
-                                       static_cast<float>(y), static_cast<float>(clusterRadius));
+  mean =
+      particles::kernels().meanNear(poses(), m_weight.data(), used.a.data(), static_cast<float>(x),
+                                    static_cast<float>(y), static_cast<float>(clusterRadius));
 }
 
 }  // namespace pitchboard::link

@@ -107,17 +107,15 @@ class MonteCarloLocalization {
   void reset(const Pose& pose, double sigma, std::optional<double> yawSigma = {});
 
   /// One cycle: motion, measurement, resampling. Values that are not finite are ignored. Allocates
-  /// nothing after the first call.
+  /// only when the number of particles changes a lot.
   void update(const LocalizationInput& input);
 
   const PoseBelief& belief() const { return m_belief; }
   /// Share of the particles that the last update drew from the sensors, 0..1.
   double resetShare() const { return m_resetShare; }
 
-  /// A copy without scratch memory and room for more particles, to be kept; expand() makes a filter
-  /// of it that goes on to the same last bit.
+  /// A copy without room for more particles, to be kept. It goes on to the same last bit.
   MonteCarloLocalization compact() const;
-  void expand();
   std::size_t compactBytes() const;
 
   int size() const { return m_count; }
@@ -137,6 +135,19 @@ class MonteCarloLocalization {
     return {m_now.x.data(), m_now.y.data(), m_now.c.data(), m_now.s.data(), m_count};
   }
   particles::Grid grid() const;
+  /// What a cycle needs in between; every filter of a thread uses the same.
+  struct Scratch {
+    Array a, b, d;
+    Particles next;
+    std::vector<std::int32_t> cells;
+    std::vector<std::uint32_t> cellStamp;
+    std::uint32_t stamp = 0;
+    std::vector<float> cellWeight;
+  };
+  /// With room for all particles and cells of this filter.
+  Scratch& scratch() const;
+  /// Makes room for `count` particles, of which the present ones stay.
+  void makeRoom(int count);
   struct Remembered {
     double bearing = 0.0;
     double age = 1e9;  // s
@@ -172,17 +183,13 @@ class MonteCarloLocalization {
 
   int m_count = 0;
   bool m_spread = false;  // particles have been placed
-  Particles m_now, m_next;
-  Array m_weight, m_a, m_b, m_d;  // the last three: scratch
-  std::vector<std::int32_t> m_cells;
+  Particles m_now;
+  Array m_weight;
   std::array<Remembered, 4> m_remembered;
   std::optional<double> m_lastImu;
   double m_imuShift = 0.0;  // to be added to its yaw if its jumps were resets; 0: none was seen
   double m_slow = 0.0, m_fast = 0.0, m_sinceBearing = 0.0, m_resetShare = 0.0;
   int m_columns, m_rows;  // of the histogram
-  std::vector<std::uint32_t> m_cellStamp;
-  std::uint32_t m_stamp = 0;
-  std::vector<float> m_cellWeight;
   PoseBelief m_belief;
 };
 

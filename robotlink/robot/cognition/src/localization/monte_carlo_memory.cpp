@@ -1,37 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A filter that is kept for later: without the memory that it only needs while it works.
+#include <algorithm>
+
 #include "localization/monte_carlo_localization.h"
 
 namespace pitchboard::link {
 
-void MonteCarloLocalization::expand() {
-  const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
-  m_cellStamp.resize(cells * headingCells, 0);
-  m_cellWeight.resize(cells, 0.0F);
+MonteCarloLocalization::Scratch& MonteCarloLocalization::scratch() const {
+  thread_local Scratch all;
   const int room = particles::capacityFor(m_parameters.maxParticles);
-  const auto grow = [room](Array& array) {
-    const auto had = array.size();
-    array.conservativeResize(room);
-    array.tail(room - had).setZero();
-  };
-  for (Particles* set : {&m_now, &m_next}) {
-    for (Array* a : {&set->x, &set->y, &set->c, &set->s}) grow(*a);
+  if (all.a.size() < room) {
+    for (Array* a : {&all.a, &all.b, &all.d, &all.next.x, &all.next.y, &all.next.c, &all.next.s}) {
+      a->setZero(room);
+    }
+    all.cells.resize(static_cast<std::size_t>(room));
   }
-  for (Array* a : {&m_weight, &m_a, &m_b, &m_d}) grow(*a);
-  m_cells.resize(static_cast<std::size_t>(room));
+  const auto cells = static_cast<std::size_t>(m_columns) * static_cast<std::size_t>(m_rows);
+  if (all.cellWeight.size() < cells) {
+    all.cellStamp.resize(cells * headingCells, 0);
+    all.cellWeight.resize(cells, 0.0F);
+  }
+  return all;
+}
+
+void MonteCarloLocalization::makeRoom(int count) {
+  constexpr int hysteresis = 4;
+  const int room = particles::capacityFor(count);
+  const auto had = static_cast<int>(m_weight.size());
+  if (had >= room && had <= hysteresis * room) return;
+  for (Array* a : {&m_now.x, &m_now.y, &m_now.c, &m_now.s, &m_weight}) {
+    a->conservativeResize(room);
+    if (room > had) a->tail(room - had).setZero();
+  }
 }
 
 MonteCarloLocalization MonteCarloLocalization::compact() const {
   MonteCarloLocalization kept = *this;
-  const int room = particles::capacityFor(m_count);
   for (Array* a : {&kept.m_now.x, &kept.m_now.y, &kept.m_now.c, &kept.m_now.s, &kept.m_weight}) {
-    a->conservativeResize(room);
+    a->conservativeResize(particles::capacityFor(m_count));
   }
-  kept.m_next = {};
-  for (Array* a : {&kept.m_a, &kept.m_b, &kept.m_d}) a->resize(0);
-  kept.m_cells = {};
-  kept.m_cellStamp = {};
-  kept.m_cellWeight = {};
   return kept;
 }
 

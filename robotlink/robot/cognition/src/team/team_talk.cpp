@@ -168,6 +168,45 @@ class TeamTalk final : public CognitiveProcess {
 
 }  // namespace
 
+TeamVariables::TeamVariables() {
+  static const TeamVariables all(LookedUp{});  // names are looked up once
+  *this = all;
+}
+
+TeamVariables::TeamVariables(LookedUp /*look*/) {
+  const VariableCatalog& catalog = VariableCatalog::published();
+  const auto intVar = [&catalog](const std::string& name) {
+    return catalog.intVar(name).value_or(IntVar{-1});
+  };
+  const auto floatVar = [&catalog](const std::string& name) {
+    return catalog.floatVar(name).value_or(FloatVar{-1});
+  };
+  intention = intVar("DECISION_STATE");
+  targetX = intVar("DECISION_POSITION_A");
+  targetY = intVar("DECISION_POSITION_B");
+  ballX = floatVar("LOCALIZATION_BALL_X");
+  ballY = floatVar("LOCALIZATION_BALL_Y");
+  for (std::size_t i = 0; i < maxTeamMates; ++i) {
+    const std::string n = std::to_string(i + 1);
+    state[i] = intVar("COM_STATE_ROBOT" + n);
+    action[i] = intVar("COM_ACTION_ROBOT" + n);
+    place[i] = intVar("COM_POS_ROBOT" + n);
+    ball[i] = intVar("COM_POS_BALL_ROBOT" + n);
+  }
+  const auto nameOf = [](const char* kind, std::size_t number) {
+    const std::string n = std::to_string(number);
+    return "LOCALIZATION_" + std::string(kind) + (n.size() < 2 ? "0" : "") + n;
+  };
+  for (std::size_t i = 0; i < maxMatePlaces; ++i) {
+    mateX[i] = floatVar(nameOf("RBT", i + 2) + "_X");
+    mateY[i] = floatVar(nameOf("RBT", i + 2) + "_Y");
+  }
+  for (std::size_t i = 0; i < maxOpponents; ++i) {
+    opponentX[i] = floatVar(nameOf("OPP", i + 1) + "_X");
+    opponentY[i] = floatVar(nameOf("OPP", i + 1) + "_Y");
+  }
+}
+
 Result<std::unique_ptr<CognitiveProcess>> makeTeamTalk(const ProcessOptions& options) {
   std::shared_ptr<TeamChannel> channel = options.teamChannel;
   if (!channel) {

@@ -113,6 +113,8 @@ class Simulation {
  private:
   Simulation();
   void carryOut();
+  /// So that steps with these robots allocate nothing.
+  void makeRoom();
 
   WorldState m_state;
   std::unique_ptr<PhysicsModel> m_model;

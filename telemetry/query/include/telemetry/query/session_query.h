@@ -24,15 +24,22 @@ namespace pitchboard::telemetry {
 /// In an expression: every robot that has the variables. A name without a group is of it, too.
 inline constexpr const char* eachRobot = "each";
 
+/// An expression whose values are wanted.
+struct QueryText {
+  std::string value;
+  std::string condition{};  ///< where it does not hold, a value does not count; may be empty
+  std::vector<std::string> robots{};  ///< that `each` stands for; all if empty
+};
+/// Expressions with the same condition and robots.
 struct QueryTexts {
-  std::vector<std::string> values;  ///< expressions whose values are wanted
-  std::string condition;  ///< where it does not hold, a value does not count; may be empty
-  std::vector<std::string> robots;  ///< that `each` stands for; all if empty
+  std::vector<std::string> values;
+  std::string condition;
+  std::vector<std::string> robots;
 };
 
 /// An expression with every name resolved.
 struct QueryCurve {
-  std::size_t value = 0;  ///< index in QueryTexts::values
+  std::size_t value = 0;  ///< index of its text
   std::string robot;      ///< name of the group that `each` stands for, or of the first variable
   bool isOfEach = false;  ///< it has names without a robot
   std::string unit;       ///< empty if there is none or it is unknown
@@ -59,6 +66,7 @@ class SessionQuery {
   /// Resolves the names. A robot that has some of the variables of `each` only has no curve. Fails
   /// with ParseError, and with NotFound if the session has no such robot or variable; the error
   /// names a similar one.
+  static Result<SessionQuery> of(const QueryRows& rows, std::span<const QueryText> texts);
   static Result<SessionQuery> of(const QueryRows& rows, const QueryTexts& texts);
   SessionQuery(SessionQuery&&) noexcept;
   SessionQuery& operator=(SessionQuery&&) noexcept;

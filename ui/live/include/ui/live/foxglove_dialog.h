@@ -7,7 +7,6 @@
 #include <QDialog>
 
 class QComboBox;
-class QLabel;
 class QLineEdit;
 class QPushButton;
 class QSettings;
@@ -20,6 +19,7 @@ struct FoxgloveSource;
 
 namespace pitchboard::ui {
 
+class InPlaceMessage;
 class LiveController;
 
 class FoxgloveDialog : public QDialog {
@@ -47,7 +47,7 @@ class FoxgloveDialog : public QDialog {
   QSpinBox* m_robot;
   QComboBox* m_team;
   QPushButton* m_remove;
-  QLabel* m_problem;
+  InPlaceMessage* m_problem;
 };
 
 /// Opens the dialog, or raises it if it is already open.

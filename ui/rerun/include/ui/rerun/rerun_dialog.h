@@ -78,6 +78,8 @@ class RerunDialog : public QDialog {
   QTimer m_plan;
   int m_plans = 0;  // that were asked for
   bool m_started = false;
+  bool m_canRun = true;
+  QString m_proposed;  // as the unchanged program
   std::shared_ptr<Reader> m_reader;
   UiQueue m_ui;
   Workers m_worker;  // last: waits for its work before the rest goes

@@ -18,6 +18,7 @@
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 #include <ui/session/export_forms.h>
+#include <ui/sources/film_parts.h>
 #include <ui/sources/session_recording.h>
 
 class QCheckBox;
@@ -48,6 +49,7 @@ struct ExportSource {
   /// The groups of the source, to choose from.
   std::vector<telemetry::GroupInfo> groups{};
   std::optional<QDateTime> clock{};  ///< time of day at second 0, if known
+  FilmParts film{};                  ///< what a video can show beside the field
 };
 
 class ExportDialog : public QDialog {
@@ -101,6 +103,7 @@ class ExportDialog : public QDialog {
   QCheckBox* m_clock;
   QComboBox* m_size;
   QSpinBox* m_rate;
+  QCheckBox *m_cameras, *m_curves;
   QFormLayout* m_rows;
   QProgressBar* m_progress;
   QLabel* m_message;

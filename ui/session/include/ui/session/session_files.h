@@ -8,9 +8,11 @@
 #include <QObject>
 #include <atomic>
 
+#include <robotlink/session/follow_recording.h>
 #include <robotlink/session/moment_scenario.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
+#include <ui/sources/frame_source.h>
 
 class QWidget;
 
@@ -34,11 +36,17 @@ class SessionFiles : public QObject {
   void askAndOpen();
   /// Asks for a file; returns an empty path if none was chosen.
   QString askForFile(const QString& title);
+  /// Asks for what a robot recorded itself, joins it to the session that is open, and opens the
+  /// result.
+  void askAndJoin();
   /// Repairs the session into a new file beside it, and opens that.
   void repair(const QString& path);
   bool isRepairing() const { return m_repairs > 0; }
   /// Switches to Simulate and plays a match that starts from the moment shown.
   void simulateFromHere(link::MomentOptions::Poses poses);
+  /// The same from the true poses, or else the believed ones, after asking who follows what was
+  /// recorded after that moment.
+  void askAndFollow();
   /// In Simulate while looking back: continues the match from the moment shown.
   void continueFromHere();
 
@@ -52,6 +60,11 @@ class SessionFiles : public QObject {
  private:
   /// The window title names the session, which distinguishes several studios.
   void showTitle();
+  Result<std::shared_ptr<const link::FollowedRecording>> recordingAfter(
+      const link::MatchFrame& frame, const link::Scenario& scenario,
+      link::FollowOptions options) const;
+  void simulateFrom(const FramePtr& frame, link::MomentOptions::Poses poses,
+                    const link::FollowOptions& follow);
   static QString shortened(const QStringList& sentences);
   void offerRepair(const QString& sentence);
   void showImported(const QString& recording, const QString& session, const QStringList& notes);

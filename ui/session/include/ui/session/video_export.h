@@ -7,6 +7,7 @@
 #include <QObject>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 #include <ui/sources/field_pictures.h>
+#include <ui/sources/film_parts.h>
 
 #include <ui/session/video_writer.h>
 
@@ -27,9 +29,10 @@ class VideoExport : public QObject {
 
   /// Starts a video in which a second is a second of the session. Fails as VideoWriter::start(),
   /// and with InvalidArgument if the range ends before it begins; later errors come with failed().
-  /// `robots` are the names of the robots to paint; empty: all.
+  /// `robots` are the names of the robots to paint; empty: all. `parts` are shown beside the field.
   Result<void> start(const QString& session, telemetry::TimeRange range,
-                     const std::vector<std::string>& robots, const VideoOptions& options);
+                     const std::vector<std::string>& robots, const VideoOptions& options,
+                     FilmParts parts = {});
   /// Stops immediately and leaves no file. No signal follows.
   void cancel();
 
@@ -40,9 +43,14 @@ class VideoExport : public QObject {
 
  private:
   struct Reader;
+  struct Moment {
+    FramePtr frame;
+    std::vector<QImage> cameras;  // of m_parts
+    double time = 0.0;            // s
+  };
   void next();
   void read();
-  void draw(const FramePtr& frame);
+  void draw(const Moment& moment);
 
   std::unique_ptr<FramePainter> m_painter;
   VideoWriter m_writer;
@@ -51,7 +59,8 @@ class VideoExport : public QObject {
   double m_rate = 30.0;
   qint64 m_pictures = 0, m_drawn = 0;
   bool m_reading = false;
-  FramePtr m_frame;  // read and not drawn yet
+  FilmParts m_parts;
+  std::optional<Moment> m_moment;  // read and not drawn yet
   std::uint64_t m_job = 0;
   UiQueue m_toUi;
   Workers m_worker;

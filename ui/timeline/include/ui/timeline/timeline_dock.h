@@ -10,6 +10,7 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 class ComparedSession;
 class LinkedTime;
+class RuleWatch;
 class ShownMoment;
 class TimelineActions;
 
@@ -20,6 +21,7 @@ struct TimelineContext {
   TimelineActions* timelineActions = nullptr;
   ComparedSession* compared = nullptr;  ///< its events are in a second row; may be null
   AbandonedFuture* future = nullptr;    ///< shown as a second branch; may be null
+  RuleWatch* rules = nullptr;           ///< shown in a row of their own; may be null
 };
 
 QWidget* makeTimelineDock(const TimelineContext& context, QWidget* parent);

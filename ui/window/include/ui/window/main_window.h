@@ -36,6 +36,7 @@ class LiveController;
 class LiveOverlay;
 class MatchController;
 class NetworkShare;
+class RuleWatch;
 class NoticeBar;
 class PlotTarget;
 class PlotsDock;
@@ -158,6 +159,7 @@ class MainWindow : public QMainWindow {
   Explorer* m_explorer;
   Rerunner* m_rerunner;
   NetworkShare* m_share;
+  RuleWatch* m_rules;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;
   Alarms* m_alarms;

@@ -17,6 +17,7 @@
 
 #include <base/result.h>
 #include <robotlink/scenario/scenario.h>
+#include <telemetry/query/rules.h>
 
 namespace pitchboard::link {
 
@@ -169,6 +170,7 @@ struct Experiment {
   double sampleEvery = 0.1;      ///< s, for expressions, beliefs and possession
   std::string success = "goal";  ///< expression over a run's metrics: true for a successful run
   std::vector<GivenFigure> given;
+  std::vector<telemetry::Rule> rules{};  ///< metrics rule_NAME; errors are assertions, too
   std::vector<Assertion> assertions;
   Record record = Record::Nothing;
   std::vector<std::size_t> recorded;       ///< numbers of runs, for Record::Chosen

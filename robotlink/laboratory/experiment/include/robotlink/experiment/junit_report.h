@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include <robotlink/experiment/experiment_summary.h>
 
@@ -18,7 +19,19 @@ struct TestedExperiment {
   std::string error;  ///< why there is no summary; if set, only the experiment's name is used
 };
 
+/// A suite whose tests are no assertions of an experiment.
+struct JunitSuite {
+  struct Test {
+    std::string name;
+    std::string failure{}, skipped{};  ///< why it failed or was skipped; both empty: it passed
+  };
+  std::string name;
+  std::vector<Test> tests{};
+  std::string error{};  ///< why there are no tests
+};
+
 std::string junitReport(std::span<const TestedExperiment> tested);
+std::string junitReport(std::span<const JunitSuite> suites);
 std::string junitReport(const Experiment& experiment, const ExperimentSummary& summary);
 
 }  // namespace pitchboard::link

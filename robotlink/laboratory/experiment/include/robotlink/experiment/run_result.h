@@ -24,8 +24,12 @@ struct MetricInfo {
 };
 
 /// Returns the metrics in the order of RunResult::values: those of the team, of each robot, of the
-/// file, and the speed reached with team programs.
+/// file, of its rules, and the speed reached with team programs.
 std::vector<MetricInfo> metricsOf(const Experiment& experiment);
+/// Returns the name of the metric that counts how often a rule was broken.
+inline std::string ruleMetric(const telemetry::Rule& rule) {
+  return "rule_" + rule.name;
+}
 /// Returns the metrics of the team, which every experiment has.
 std::vector<MetricInfo> teamMetrics();
 

@@ -36,6 +36,9 @@ struct RerunProcess {
 
 /// Reads "decision=./decide.py". Fails with ParseError.
 Result<RerunProcess> rerunProcessFromText(std::string_view text);
+/// Returns a RerunProcess::program: the file of that name beside the session's file if there is one
+/// and none in the working directory; else the same.
+std::string besideRecording(const std::string& program, const std::string& session);
 
 /// What a rerun wrote, from one change of an output to the next, for a comparison with the next
 /// rerun of the same recording.
@@ -59,6 +62,8 @@ struct RerunOptions {
   double speed = 0.0;  ///< times real time; 0: as fast as possible
   /// s by which a program may act earlier or later; empty: 0 in lock-step, otherwise 0.5.
   std::optional<double> slack;
+  /// The processes are those of the recording; others are refused if the recording tells.
+  bool isUnchanged = false;
   bool exact = false;  ///< every distance is a difference, not only those beyond tolerance
   std::vector<std::string> writes;  ///< more variables that the processes write; * for any text
   std::string catalog;              ///< file with the map of variables; empty: that of the session
@@ -119,9 +124,11 @@ struct RerunPlan {
     bool isRecorded = false;  ///< otherwise there is nothing to compare it with
   };
   std::string robot;
-  std::vector<Output> outputs;       ///< what the processes write, in the order of the map
-  std::vector<std::string> missing;  ///< what they read and was not recorded: they read 0
-  std::vector<std::string> notes;    ///< sentences, as RerunOptions::note gets them
+  std::vector<Output> outputs;  ///< what the processes write, in the order of the map
+  /// What ran as the first of the processes, as RerunProcess::program; empty if it is not known.
+  std::string recorded;
+  std::vector<std::string> missing;            ///< what they read and was not recorded: they read 0
+  std::vector<std::string> notes;              ///< sentences, as RerunOptions::note gets them
   double start = 0.0, begin = 0.0, end = 0.0;  ///< s: played from, compared from and until
 };
 

@@ -65,11 +65,12 @@ enum class MatchEventKind : std::uint8_t {
   PortsShared,     ///< detail: which program also receives, and who gets what; empty: none does
   SettingChanged,  ///< detail: what was changed by hand, such as "noise"
   RerunDiffers,    ///< robot, process; detail: the variable, and both values
+  LetGo,           ///< robots stopped following a recording; detail: why
   Undone,          ///< everything that followed from `cause` was undone
   Bookmark,        ///< detail: the user's note
   Other            ///< a kind that this version does not know; detail: its name in the file
 };
-inline constexpr std::size_t matchEventKindCount = 46;
+inline constexpr std::size_t matchEventKindCount = 47;
 
 /// The half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

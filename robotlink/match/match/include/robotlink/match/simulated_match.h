@@ -25,6 +25,8 @@
 namespace pitchboard::link {
 
 class MatchDrawings;
+struct FollowedRecording;
+struct FollowState;
 struct ReceivedDrawing;
 struct Moment;
 struct RobotsMemory;
@@ -92,6 +94,12 @@ class SimulatedMatch {
   /// restart with the belief on their blackboards, as separate ones do in their next cycle. An
   /// error leaves the match unchanged.
   Result<void> restore(const Moment& moment);
+
+  /// Moves robots and ball as in a recording until one of the other robots changes what they would
+  /// react to (followed_recording.h). From then on their processes command them. Null ends it, and
+  /// so does restore().
+  void follow(std::shared_ptr<const FollowedRecording> recording);
+  const FollowState& followState() const;
 
   /// Returns whether playing the match again would give the same result. False once the match has
   /// not waited for a team program, or a program has not finished a cycle in time, and while

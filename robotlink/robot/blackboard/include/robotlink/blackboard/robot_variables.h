@@ -27,6 +27,10 @@ struct RobotVariables {
   /// VISION_RBT01_DIST, _ANGLE and so on. The published map ends at 11, which is no error.
   std::array<FloatVar, 22> robotDist, robotAngle;
   std::vector<std::string> missing;  ///< names that the catalog does not have
+
+ private:
+  struct LookedUp {};
+  RobotVariables(const VariableCatalog& catalog, LookedUp look);
 };
 
 // Access for bridge and processes: an absent variable reads as `fallback` and is never written.

@@ -19,10 +19,12 @@ struct FieldTrajectory {
   std::string colour;  ///< a colour of SVG
   double opacity = 1.0;
   double width = 0.03;  ///< m
+  std::string label{};  ///< of a robot: a disc with this text is drawn at the end
 };
 
 /// Returns an SVG document in the colours of the dark palette; 1 unit is 1 cm. Later trajectories
-/// are painted over earlier ones.
-std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories);
+/// are painted over earlier ones. `below`: SVG in this drawing's units, under the field's lines.
+std::string fieldSvg(const sim::FieldSpec& field, std::span<const FieldTrajectory> trajectories,
+                     const std::string& below = {});
 
 }  // namespace pitchboard::link

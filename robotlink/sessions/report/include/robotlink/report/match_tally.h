@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Counts a match: goals, kicks, passes, distance, time at the ball, falls, penalties, belief error,
-// link quality. Reports, experiments and tournaments use it, so a match has the same numbers while
-// it is played, in its recording and in an experiment. Simulated matches are measured by the truth,
-// live ones by what robots believed and sent. A tally takes moments, ten a second (session_tally.h
-// makes them of rows and frames). Plain values in metres and seconds; one thread at a time.
+// Counts a match: goals, kicks, passes, shots, distance, time at the ball, falls, penalties, belief
+// error, link quality. Reports, experiments and tournaments use it, so a match has the same numbers
+// while it is played, in its recording and in an experiment. Simulated matches are measured by the
+// truth, live ones by what robots believed and sent. A tally takes moments, ten a second
+// (session_tally.h makes them of rows and frames). Plain values in metres and seconds; one thread
+// at a time.
 
 #include <array>
 #include <map>
@@ -13,52 +14,27 @@
 #include <string>
 #include <vector>
 
-#include <base/geometry.h>
-#include <base/robot_key.h>
-#include <base/team_color.h>
+#include <robotlink/report/play_follower.h>
 #include <telemetry/series/series_types.h>
-#include <telemetry/wire/team_monitor.h>
 
 namespace pitchboard::link {
 
-/// A robot has the ball while it is the nearest one and closer than this (m).
-inline constexpr double ballReach = 0.5;
-/// Time between two moments of a tally, s.
-inline constexpr double tallyStep = 0.1;
 /// Number of parts of each curve.
 inline constexpr std::size_t statisticsParts = 120;
 
-/// A robot at one moment. What is unknown is empty.
-struct TallyRobot {
-  RobotUid uid;
-  std::string name;  ///< of its group: "B1"
-  std::string ownName{};
-  RobotOrder order;
-  TeamColor team = TeamColor::Blue;
-  std::optional<Point> place{};                      ///< true, else believed
-  double placeTime = 0.0;                            ///< s, when it was there; of believed places
-  std::optional<double> walked{}, kicks{}, falls{};  ///< counters of a simulated robot
-  bool kicking = false, fallen = false, penalised = false;
-  std::optional<double> beliefError{};   ///< cm
-  std::optional<double> ballDistance{};  ///< m, true, else as it sees the ball itself
-  /// Whether each process works.
-  std::array<std::optional<bool>, telemetry::processCount> works{};
-  std::optional<telemetry::LinkHealth> link{};  ///< of a live robot
-  std::optional<double> volts{};
+/// How many of its plays there were (play_event.h).
+struct PlayCounts {
+  std::uint32_t passes = 0;       ///< completed
+  std::uint32_t intercepted = 0;  ///< its passes that an opponent got
+  std::uint32_t shots = 0, onTarget = 0, wins = 0, losses = 0;
+  bool operator==(const PlayCounts&) const = default;
 };
 
-struct TallyTeam {
-  std::string name{};
-  std::optional<int> number{}, score{};  ///< number: the referee's
-};
-
-struct TallyMoment {
-  double time = 0.0;
-  std::vector<TallyRobot> robots;
-  std::map<TeamColor, TallyTeam> teams;
-  std::optional<Point> ball;
-  bool isInPlay = true;             ///< false: a kick now is no pass
-  std::optional<std::size_t> half;  ///< 0 and 1, in extra time 2 and 3; empty: no half is played
+/// Where a robot was, seen as if its team always attacked to the right.
+struct HeatMap {
+  static constexpr double square = 0.5;  ///< m
+  int columns = 0, rows = 0;             ///< from the lower left corner of the border
+  std::vector<float> seconds;            ///< row by row; empty: its place was never known
 };
 
 struct RobotSummary {
@@ -70,7 +46,9 @@ struct RobotSummary {
   double seconds = 0.0;            ///< time for which there are values, s
   std::optional<double> distance;  ///< m walked (live: of its believed places, without jumps)
   std::uint32_t kicks = 0;         ///< live: kick actions that were sent
-  std::uint32_t falls = 0, passes = 0, penalties = 0;
+  std::uint32_t falls = 0, penalties = 0;
+  PlayCounts plays;
+  HeatMap heat;
   double ballSeconds = 0.0;  ///< time with the ball, s; live: by what it saw itself
   /// Of the belief, cm; needs the truth.
   std::optional<double> errorMean, errorMedian, error90, errorEnd;
@@ -101,7 +79,8 @@ struct TeamSummary {
   std::vector<int> byHalf{};    ///< goals of each half; empty if the first half was not seen
   int scored = 0;               ///< goals in this range
   double ballSeconds = 0.0;
-  std::uint32_t kicks = 0, falls = 0, passes = 0, penalties = 0;
+  std::uint32_t kicks = 0, falls = 0, penalties = 0;
+  PlayCounts plays;
   double distance = 0.0;          ///< m
   std::vector<double> ballCurve;  ///< share of the time with the ball, 0 to 1, in equal parts
 };
@@ -112,6 +91,9 @@ struct MatchStatistics {
   std::uint64_t rows = 0;            ///< that were read
   std::vector<RobotSummary> robots;  ///< our team's first, then by team and number
   std::vector<TeamSummary> teams;    ///< those that have robots or a score, in the same order
+  sim::FieldSpec field;
+  std::vector<PlayEvent> plays;  ///< in order of time
+  std::vector<GoalScene> goals;
 
   /// Null if there is no such robot or team.
   const RobotSummary* robot(std::string_view name) const;
@@ -120,6 +102,7 @@ struct MatchStatistics {
 
 class MatchTally {
  public:
+  explicit MatchTally(const sim::FieldSpec& field = {}) : m_field(field), m_follower(field) {}
   /// A moment that held when the counted range begins: changes count from it on.
   void begin(const TallyMoment& moment) { take(moment, true); }
   /// Moments must come in order of time.
@@ -159,23 +142,19 @@ class MatchTally {
     double time, seconds;
     TeamColor team;
   };
-  struct Kick {
-    RobotUid robot;
-    TeamColor team;
-    double time;
-    Point from;
-  };
   void take(const TallyMoment& moment, bool isBefore);
   void takeRobot(const TallyMoment& moment, const TallyRobot& seen, bool isBefore);
   void takeWay(const TallyRobot& seen, Robot& robot);
   void takeTeam(const TallyMoment& moment, TeamColor colour, const TallyTeam& seen, bool isBefore);
-  void followPass(const TallyMoment& moment);
+  void takePlace(const TallyMoment& moment, const TallyRobot& seen, double seconds, HeatMap& heat);
+  void followPlay(const TallyMoment& moment, bool isBefore);
+  void countPlays(MatchStatistics& out) const;
 
+  sim::FieldSpec m_field;
+  PlayFollower m_follower;
   std::map<RobotUid, Robot> m_robots;
   std::map<TeamColor, Team> m_teams;
   std::vector<Held> m_held;
-  std::optional<Kick> m_kick;
-  std::optional<Point> m_ball;       // of the last moment
   std::optional<double> m_lastTime;  // s, of the last moment
   bool m_hasTruth = false;
 };

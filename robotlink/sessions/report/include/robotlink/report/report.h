@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The report of a match: a single HTML file with style, curves and picture inside, for any browser,
-// light or dark, and for printing. Plain values; any thread.
+// The report of a match, for coaches: a single HTML file with style, curves and pictures inside,
+// for any browser, light or dark, a phone, and for printing. Plain values; any thread.
 
 #include <string>
 #include <vector>
@@ -15,6 +15,12 @@
 
 namespace pitchboard::link {
 
+/// A recording of a part of the match beside the page.
+struct ReportClip {
+  telemetry::TimeRange range;
+  std::string href;  ///< relative to the page
+};
+
 struct ReportContent {
   std::string title;               ///< title of the match
   telemetry::SessionInfo session;  ///< source, seed, wall time; an empty program is left out
@@ -23,6 +29,7 @@ struct ReportContent {
   /// A picture of the field: SVG text, or the bytes of a PNG; empty if there is none.
   std::string picture;
   std::string pictureCaption;
+  std::vector<ReportClip> clips;   ///< to which moments lead
   std::vector<std::string> notes;  ///< notes for readers, e.g. that the recording was cut off
 };
 

@@ -44,7 +44,8 @@ figcaption { font-size: 13px; margin-top: 8px; }
   border-radius: 6px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; }
 th, td { padding: 7px 12px; text-align: right; white-space: nowrap; }
-th { font-weight: 600; font-size: 13px; border-bottom: 1px solid var(--line); }
+th { font-weight: 600; font-size: 13px; border-bottom: 1px solid var(--line);
+  white-space: normal; }
 tbody tr + tr td { border-top: 1px solid var(--line); }
 th.l, td.l { text-align: left; white-space: normal; }
 .badge { display: inline-block; min-width: 34px; padding: 0 8px; border-radius: 10px;
@@ -62,10 +63,54 @@ svg.chart { display: block; width: 100%; height: auto; overflow: visible; }
 .curve { fill: none; stroke: var(--c); stroke-width: 1.6; stroke-linejoin: round; }
 .area { fill: var(--c); opacity: .16; }
 .bar { fill: var(--c); } .track { fill: var(--track); }
+.figures { background: var(--card); border: 1px solid var(--line); border-radius: 6px;
+  padding: 12px 16px; margin-top: 16px; }
+.figures div:not(.duel) { display: flex; justify-content: space-between; gap: 12px; }
+.figures b { flex: 1; font-variant-numeric: tabular-nums; } .figures b:last-child { text-align: right; }
+.figures span { color: var(--quiet); }
+.duel { display: flex; gap: 2px; height: 5px; margin: 2px 0 8px; }
+.duel i { background: var(--c); border-radius: 2px; } .duel.none i { background: var(--track); }
+.pictures { display: grid; gap: 16px; grid-template-columns: repeat(auto-fill, minmax(280px, 1fr)); }
+.pictures.small { grid-template-columns: repeat(auto-fill, minmax(min(46%, 200px), 1fr)); }
+.pictures svg { display: block; width: 100%; height: auto; border-radius: 3px; }
+a { color: var(--accent); }
+table.sorts th { cursor: pointer; } th[aria-sort=ascending]::after { content: " ▲"; }
+th[aria-sort=descending]::after { content: " ▼"; } table.sorts th:focus-visible { outline: 2px solid var(--accent); }
 details summary { cursor: pointer; color: var(--accent); margin: 12px 0; }
 footer { margin-top: 48px; font-size: 13px; color: var(--quiet); }
 @media print { body { background: #fff; } main { max-width: none; padding: 0; }
-  figure, .team, .scroll { break-inside: avoid; } details { display: block; } }
+  figure, .team, .figures, tr { break-inside: avoid; } h2, h2 + p { break-after: avoid; }
+  .scroll { overflow: visible; } td, th { padding: 3px 6px; font-size: 12px; }
+  details { display: block; } }
+@media (max-width: 480px) { main { padding: 16px 12px 32px; } h1 { font-size: 22px; }
+  .score { gap: 8px; } .team { flex-basis: 120px; padding: 8px 12px; } .team b { font-size: 32px; }
+  td, th { padding: 6px 8px; } }
 )css";
+
+/// Sorts tables of the class "sorts" by a click or Enter on a heading; the only script of a page.
+inline constexpr std::string_view reportScript = R"js(
+document.querySelectorAll('table.sorts th').forEach(function (th) {
+  th.tabIndex = 0;
+  function sort() {
+    var column = th.cellIndex, body = th.closest('table').tBodies[0];
+    var up = th.getAttribute('aria-sort') !== 'ascending';
+    th.parentNode.querySelectorAll('th').forEach(function (o) { o.removeAttribute('aria-sort'); });
+    th.setAttribute('aria-sort', up ? 'ascending' : 'descending');
+    function key(row) {
+      var cell = row.cells[column], text = cell.dataset.v || cell.textContent;
+      var number = parseFloat(text);
+      return isNaN(number) ? text : number;
+    }
+    Array.from(body.rows).sort(function (a, b) {
+      var x = key(a), y = key(b);
+      var order = typeof x === 'number' && typeof y === 'number' ? x - y
+                                                               : String(x).localeCompare(String(y));
+      return up ? order : -order;
+    }).forEach(function (row) { body.appendChild(row); });
+  }
+  th.addEventListener('click', sort);
+  th.addEventListener('keydown', function (e) { if (e.key === 'Enter') sort(); });
+});
+)js";
 
 }  // namespace pitchboard::link

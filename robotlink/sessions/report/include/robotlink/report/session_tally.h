@@ -19,7 +19,7 @@ namespace pitchboard::link {
 /// every source gives the same numbers.
 class RowTally : public telemetry::RowSink {
  public:
-  RowTally();
+  explicit RowTally(const sim::FieldSpec& field = {});
   ~RowTally() override;
   telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override;
   void append(telemetry::GroupId group, const telemetry::RowView& row) override;
@@ -46,7 +46,8 @@ class RowTally : public telemetry::RowSink {
 TallyMoment liveMomentOf(const MatchFrame& frame);
 
 /// Both read every row of the range once; for live robots they use at most 36 000 moments.
-MatchStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range);
+MatchStatistics statisticsOf(const telemetry::SeriesStore& rows, telemetry::TimeRange range,
+                             const sim::FieldSpec& field = {});
 MatchStatistics statisticsOf(const telemetry::SessionReader& session, telemetry::TimeRange range);
 
 }  // namespace pitchboard::link

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rules in the window: the moments of the command line for a recording, and while a match runs
+// those of its rows; the row of the timeline, the alarm, the filter, what is saved, and long lists.
+
+#include <QClipboard>
+#include <QDockWidget>
+#include <QHelpEvent>
+#include <QJsonDocument>
+#include <QJsonObject>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTableView>
+#include <QToolTip>
+#include <cmath>
+
+#include <robotlink/scenario/scenario.h>
+#include <telemetry/query/moment_watch.h>
+#include <telemetry/session/session_writer.h>
+#include <ui/base/theme.h>
+#include <ui/sources/match_memory.h>
+#include <ui/sources/replay_controller.h>
+#include <ui/sources/rule_watch.h>
+#include <ui/sources/shown_moment.h>
+
+#include "../../support/program_run.h"
+#include "../studio_rig.h"
+#include "timeline_strip.h"
+
+namespace tst_rules_dock {
+
+using namespace pitchboard;
+using namespace pitchboard::ui;
+
+namespace {
+
+constexpr int patience_ms = 30'000;
+
+struct RulesPanel : studio_rig::Studio {
+  QDockWidget* dock = window.findChild<QDockWidget*>(QStringLiteral("rules"));
+  RuleWatch* rules = window.findChild<RuleWatch*>();
+  TimelineStrip* strip = window.findChild<TimelineStrip*>();
+
+  RulesPanel() {
+    dock->show();
+    dock->raise();
+  }
+  template <class Widget>
+  Widget* find(const char* name) const {
+    auto* found = dock->findChild<Widget*>(QLatin1String(name));
+    if (found == nullptr) qFatal("there is no %s", name);
+    return found;
+  }
+  QTableView* table() const { return find<QTableView>("rulesTable"); }
+  QString problem() const { return find<QLabel>("inPlaceText")->text(); }
+  QString state() const { return find<QLabel>("rulesState")->text(); }
+  void replay(const QString& session) {
+    window.openSession(session);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        window.shown()->source() == window.replay() && window.replay()->path() == session,
+        patience_ms);
+    QTRY_VERIFY_WITH_TIMEOUT(!rules->isRunning(), patience_ms);
+  }
+  /// "rule robot from until", sorted.
+  QStringList lines() const {
+    QStringList out;
+    for (const BrokenRule& one : rules->broken()) {
+      out << textOf(rules->ruleOf(one), one.moment);
+    }
+    out.sort();
+    return out;
+  }
+  static QString textOf(const telemetry::Rule& rule, const telemetry::FoundMoment& moment) {
+    return QStringLiteral("%1 %2 %3 %4")
+        .arg(QString::fromStdString(rule.name), QString::fromStdString(moment.robot))
+        .arg(moment.range.begin, 0, 'f', 6)
+        .arg(moment.range.end, 0, 'f', 6);
+  }
+  /// What the rows that the match keeps say, all at once.
+  QStringList linesOfMemory() const {
+    const telemetry::QueryRows rows(*window.shown()->series());
+    telemetry::MomentWatch watch(telemetry::questionsOf(rules->rules()));
+    if (!watch.advance(rows, std::nextafter(rows.range()->end, -1.0))) qFatal("stopped");
+    QStringList out;
+    for (const auto& all : {watch.takeEnded(), watch.open()}) {
+      for (const auto& one : all) out << textOf(rules->rules()[one.question], one);
+    }
+    out.sort();
+    return out;
+  }
+  void playTo(std::uint64_t tick) {
+    controller.runTo(tick);
+    QTRY_VERIFY_WITH_TIMEOUT(
+        window.shown()->newest() != nullptr && window.shown()->newest()->snapshot.tick == tick,
+        patience_ms);
+  }
+};
+
+}  // namespace
+
+class TestRulesDock : public QObject {
+  Q_OBJECT
+  QTemporaryDir m_folder;
+
+  QString path(const char* name) const { return m_folder.filePath(QLatin1String(name)); }
+  QString written(const char* name, const QByteArray& text) const {
+    QFile file(path(name));
+    if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size()) qFatal("not written");
+    return path(name);
+  }
+
+ private slots:
+  void initTestCase() {
+    setTheme(*qApp, ThemeChoice::Dark);
+    const ProgramRun run = cli({"record", "--scenario", "match-3v3", "--noise", "realistic",
+                                "--seed", "3", "--duration", "20", "-o", path("match.mcap")});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    written("rules.json", R"({"version": 1, "rules": [
+  {"name": "wrong", "text": "Believes in a wrong place", "when": "BELIEF_ERROR > 25", "for": 0.2,
+   "severity": "warning"},
+  {"name": "late", "text": "It is late", "when": "TRUE_X > -1000 && t > 12 && t < 13",
+   "robots": ["B1", "B2"]},
+  {"name": "unknown", "when": "NOSUCH > 1"}]})");
+  }
+
+  void aRecordingHasTheMomentsOfTheCommandLine() {
+    RulesPanel s;
+    QVERIFY(s.find<QLabel>("emptyRules")->isVisible());
+    QCOMPARE(s.strip->rulesRect(), QRect());
+    const int height = s.strip->sizeHint().height();
+    QVERIFY(s.rules->open(path("rules.json")));
+    s.replay(path("match.mcap"));
+    const ProgramRun run = cli({"check", path("rules.json"), path("match.mcap"), "--json"});
+    QStringList expected;
+    for (const QByteArray& line : run.out.trimmed().split('\n')) {
+      const QJsonObject one = QJsonDocument::fromJson(line).object();
+      if (one.contains("not_checked")) continue;
+      expected << QStringLiteral("%1 %2 %3 %4")
+                      .arg(one["rule"].toString(), one["robot"].toString())
+                      .arg(one["from"].toDouble(), 0, 'f', 6)
+                      .arg(one["until"].toDouble(), 0, 'f', 6);
+    }
+    expected.sort();
+    QVERIFY(expected.size() > 5);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), expected, patience_ms);
+    QCOMPARE(s.table()->model()->rowCount(), static_cast<int>(expected.size()));
+    QVERIFY2(s.problem().contains(QStringLiteral("unknown is not checked: No robot has the "
+                                                 "variable NOSUCH")),
+             qPrintable(s.problem()));
+    // A row of the timeline.
+    QVERIFY(s.strip->sizeHint().height() > height);
+    const auto middleOf = [&s](double time) {
+      return QPoint(qRound(s.strip->axis().pixel(time)), s.strip->rulesRect().center().y());
+    };
+    const QImage picture = s.strip->grab().toImage();
+    const auto colorAt = [&](double time) {
+      return picture.pixelColor(middleOf(time) * picture.devicePixelRatio());
+    };
+    QCOMPARE(colorAt(12.5), theme().errorText);
+    const auto broken = s.strip->brokenAt(s.strip->axis().pixel(12.5));
+    QVERIFY(broken.size() >= 2);
+    QCOMPARE(s.rules->ruleOf(*broken.front()).name, std::string("late"));
+    QHelpEvent help(QEvent::ToolTip, middleOf(12.5), s.strip->mapToGlobal(middleOf(12.5)));
+    QApplication::sendEvent(s.strip, &help);
+    QVERIFY2(QToolTip::text().contains(QStringLiteral("B1: It is late (late, 1.")) ||
+                 QToolTip::text().contains(QStringLiteral("B1: It is late (late, 0.98")),
+             qPrintable(QToolTip::text()));
+    QTest::mouseClick(s.strip, Qt::LeftButton, {}, middleOf(12.5));
+    QVERIFY(std::abs(s.window.shown()->time() - 12.0) < 0.05);
+    // A click in the table leads there, too; the list can be filtered, copied.
+    s.find<QLineEdit>("rulesFilter")->setText(QStringLiteral("late B2"));
+    QCOMPARE(s.table()->model()->rowCount(), 1);
+    QVERIFY2(s.state().contains(QStringLiteral("broken 1 of ")), qPrintable(s.state()));
+    s.window.shown()->seek(1.0);
+    const QModelIndex cell = s.table()->model()->index(0, RuleWatch::Name);
+    QTest::mouseClick(s.table()->viewport(), Qt::LeftButton, {},
+                      s.table()->visualRect(cell).center());
+    QVERIFY(std::abs(s.window.shown()->time() - 12.0) < 0.05);
+    s.table()->setFocus();
+    QTest::keyClick(s.table(), Qt::Key_C, Qt::ControlModifier);
+    QVERIFY2(QApplication::clipboard()->text().startsWith(QStringLiteral("error\tlate\tB2\t")),
+             qPrintable(QApplication::clipboard()->text()));
+    // The file is known at the next start.
+    QCOMPARE(s.settings.value(QStringLiteral("rules/file")).toString(), path("rules.json"));
+    RuleWatch next(s.window.shown(), s.window.replay(), &s.settings, nullptr);
+    QCOMPARE(next.rules().size(), std::size_t{3});
+  }
+
+  void aMatchIsCheckedWhileItRuns() {
+    RulesPanel s;
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    s.playTo(6);
+    QVERIFY(s.rules->open(written("live.json", R"({"version": 1, "rules": [
+  {"name": "late", "when": "TRUE_X > -1000 && t > 2 && t < 3"},
+  {"name": "later", "text": "Now it is late", "when": "TRUE_X > -1000 && t > 4", "for": 0.5},
+  {"name": "wrong", "when": "BELIEF_ERROR > 15", "severity": "note"}]})")));
+    QSignalSpy broke(s.rules, &RuleWatch::broke);
+    auto* frame = s.window.findChild<QWidget*>(QStringLiteral("alarmFrame"));
+    s.playTo(100);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    QCOMPARE(broke.count(), 0);  // notes are no alarms
+    QVERIFY(!frame->isVisible());
+    s.playTo(150);
+    QTRY_VERIFY_WITH_TIMEOUT(broke.count() > 0, patience_ms);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    const auto rulesBroken = [&broke] {
+      int all = 0;
+      for (const QList<QVariant>& one : broke) {
+        const QString text = one.front().toString();
+        const qsizetype more = text.indexOf(QStringLiteral("(and "));
+        all += 1 + (more < 0 ? 0 : text.mid(more + 5).section(QLatin1Char(' '), 0, 0).toInt());
+      }
+      return all;
+    };
+    QCOMPARE(rulesBroken(), 6);
+    QVERIFY(frame->isVisible());
+    s.playTo(250);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    QVERIFY(std::ranges::none_of(s.rules->broken(), [&](const BrokenRule& one) {
+      return s.rules->ruleOf(one).name == "later";  // not for half a second yet
+    }));
+    s.playTo(290);
+    QTRY_COMPARE_WITH_TIMEOUT(rulesBroken(), 12, patience_ms);
+    QVERIFY2(frame->accessibleName().contains(QStringLiteral(": Now it is late")),
+             qPrintable(frame->accessibleName()));
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    // The match goes on from an earlier moment: what was later has not happened.
+    s.controller.memory()->continueFrom(2.5);
+    QTRY_VERIFY_WITH_TIMEOUT(s.window.shown()->now() < 4.0, patience_ms);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    QVERIFY(std::ranges::all_of(
+        s.rules->broken(), [](const BrokenRule& one) { return one.moment.range.begin < 3.0; }));
+    // Without rules there is no row.
+    s.rules->close();
+    QVERIFY(s.rules->broken().empty());
+    QCOMPARE(s.strip->rulesRect(), QRect());
+  }
+
+  void mistakesAreShown() {
+    RulesPanel s;
+    QVERIFY(!s.rules->open(written("bad.json", "{\"version\": 1,\n \"rules\": [{}]}")));
+    QVERIFY2(s.problem().contains(QStringLiteral("bad.json:2: rules[0].name")) ||
+                 s.problem().contains(QStringLiteral("bad.json:2: rules[0]")),
+             qPrintable(s.problem()));
+    QVERIFY(s.find<QLabel>("emptyRules")->isVisible());
+    // Corrected, it is read again.
+    written("bad.json", R"({"version": 1, "rules": [{"name": "a", "when": "TRUE_X > 1000"}]})");
+    QTest::mouseClick(s.find<QPushButton>("checkRulesAgain"), Qt::LeftButton);
+    QCOMPARE(s.rules->rules().size(), std::size_t{1});
+    QTRY_VERIFY_WITH_TIMEOUT(s.problem().isEmpty(), patience_ms);
+    QVERIFY(!s.rules->open(path("none.json")));
+    QVERIFY(s.rules->rules().empty());
+  }
+
+  /// Twelve thousand times: the newest ten thousand are listed.
+  void longListsAreCut() {
+    using namespace telemetry;
+    SessionInfo info;
+    info.program = "test";
+    info.source = "simulation";
+    auto writer = SessionWriter::create(path("long.mcap").toStdString(), info);
+    QVERIFY(writer);
+    (*writer)->addGroup(
+        {"match", {{"X", ColumnType::Float64, "", "", ColumnKind::Number, {}}}, {}});
+    for (int i = 0; i < 24'000; ++i) {
+      const double value = i % 2;
+      (*writer)->append(0, {i * 0.1, {}, std::span(&value, 1)});
+    }
+    QVERIFY((*writer)->finish());
+    RulesPanel s;
+    QVERIFY(s.rules->open(written(
+        "often.json", R"({"version": 1, "rules": [{"name": "a", "when": "match.X > 0"}]})")));
+    s.replay(path("long.mcap"));
+    QTRY_COMPARE_WITH_TIMEOUT(s.rules->broken().size(), RuleWatch::maxBroken, patience_ms);
+    QVERIFY(std::abs(s.rules->broken().back().moment.range.begin - 2399.9) < 1e-6);
+    QVERIFY2(s.state().contains(QStringLiteral("the newest ones")), qPrintable(s.state()));
+    QVERIFY(!s.strip->grab().isNull());
+  }
+};
+
+PITCHBOARD_GUI_TEST(TestRulesDock)
+
+}  // namespace tst_rules_dock
+
+#include "tst_rules_dock.moc"
