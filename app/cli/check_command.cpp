@@ -193,13 +193,7 @@ void addCheckCommand(CLI::App& parent, int& exitCode) {
       ->add_option("--junit", options->junit,
                    "Write JUnit XML: a suite for each recording, a test for each rule")
       ->type_name("FILE.xml");
-  command
-      ->add_option("--jobs", options->jobs,
-                   "How many threads read; default: one for each core of the computer")
-      ->type_name("N")
-      ->check(CLI::Range(1, 256));
-  command->add_flag("--progress", options->progress,
-                    "Print progress to stderr even if it is not a terminal");
+  addReading(*command, options->jobs, options->progress);
   whenChosen(*command, options, exitCode, checkRules);
 }
 

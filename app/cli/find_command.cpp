@@ -124,13 +124,7 @@ void addFindCommand(CLI::App& parent, int& exitCode) {
   command->add_flag("--json", options->json, "One JSON object per moment");
   command->add_flag("--csv", options->csv, "A line with commas per moment, and a header")
       ->excludes("--json");
-  command
-      ->add_option("--jobs", options->jobs,
-                   "How many threads read; default: one for each core of the computer")
-      ->type_name("N")
-      ->check(CLI::Range(1, 256));
-  command->add_flag("--progress", options->progress,
-                    "Print progress to stderr even if it is not a terminal");
+  addReading(*command, options->jobs, options->progress);
   whenChosen(*command, options, exitCode, findIn);
 }
 

@@ -47,6 +47,15 @@ Result<Part> partOf(const SessionReader& session, const PartOptions& options) {
   return part;
 }
 
+void addReading(CLI::App& command, int& jobs, bool& progress) {
+  command
+      .add_option("--jobs", jobs,
+                  "How many threads read; default: one for each core of the computer")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  command.add_flag("--progress", progress, "Print progress to stderr even if it is not a terminal");
+}
+
 void addRobots(CLI::App& command, std::vector<std::string>& robots, const char* description) {
   command.add_option("--robots", robots, description)->type_name("NAMES")->delimiter(',');
 }

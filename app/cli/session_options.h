@@ -30,6 +30,9 @@ struct Part {
 /// Fails with InvalidArgument, which names the option.
 Result<Part> partOf(const telemetry::SessionReader& session, const PartOptions& options);
 
+/// --jobs and --progress, of commands that read many recordings.
+void addReading(CLI::App& command, int& jobs, bool& progress);
+
 /// Adds --robots and --variables, lists with commas.
 void addRobots(CLI::App& command, std::vector<std::string>& robots, const char* description);
 void addVariables(CLI::App& command, std::vector<std::string>& variables, const char* description);
