@@ -114,7 +114,7 @@ core-only() {
 tidy_these() {
   [ $# -gt 0 ] || { echo "no source has changed"; return 0; }
   quietly cmake --preset tidy
-  quietly ninja -C build/tidy telemetry/wire/messages/messages/team_messages.pb.h
+  quietly ninja -C build/tidy telemetry/formats/messages/messages/team_messages.pb.h
   printf '%s\n' "$@" | xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet --warnings-as-errors='*' \
     --extra-arg=-Wno-unknown-warning-option 2> \
     >(grep -vE '^[0-9]+ warnings? (generated|treated)' >&2)

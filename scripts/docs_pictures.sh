@@ -161,6 +161,20 @@ other-robots() {
   "$bin/pitchboard-cli" import "$root/tests/data/recordings/robot_walks.mcap" -o walk.mcap --force 2>/dev/null
   "$bin/pitchboard-cli" export walk.mcap --to png --from 10 -o other-robots.png --force
 }
+map-topics() {
+  cp "$root/tests/data/recordings/robot_walks.mcap" walk.mcap
+  cat >walk.mapping.json <<'END'
+{"mapping": 1, "robots": [{"number": 3, "pose": {"topic": "/robot3/amcl_pose", "x": "pose.pose.position.x",
+  "y": "pose.pose.position.y", "orientation": "pose.pose.orientation", "covariance": "pose.covariance"},
+  "ball": {"topic": "/robot3/ball", "x": "x_mm", "y": "y_mm", "unit": "mm", "seen": "seen"}}]}
+END
+  theme=light studio walk.mcap
+  find "Map topics of a recording"
+  dialog=$(xdotool search --sync --onlyvisible --name "Map topics" | tail -1)
+  xdotool windowfocus "$dialog" && sleep 2
+  import -window "$dialog" map-topics.png
+  kill "$window" && wait "$window" 2>/dev/null || true
+}
 rollouts() {
   PYTHONPATH=$root/robotlink/laboratory/capi/python /usr/bin/python3 - >heat.mvg <<'END'
 # Where the ball is after 5 s: shares of rollouts in cells of 0.25 m, on a field of 9 m by 6 m, 80 pixels a metre.
@@ -290,6 +304,25 @@ tutorial-failing-test() {
   python3 -c 'import json; json.dump(json.load(open("keeper.json"))["scenario"], open("shot.json", "w"))'
   "$bin/pitchboard" --render-scenario shot.json --picture tutorial-failing-test.png --size 800x600
 }
+tutorial-review() {
+  "$bin/pitchboard-cli" record --scenario match-3v3 --seed 7 --duration 40 -o 7.mcap >/dev/null
+  "$bin/pitchboard" --paint 7.mcap --picture review.mp4 --from 20 --until 35 --rate 30 --size 1280x900 >/dev/null
+  local way='x0=W*0.28:y0=H*0.12:x1=W*0.9:y1=H*0.2:x2=W*0.03:y2=H*0.72:x3=W*0.97:y3=H*0.95'
+  ffmpeg -loglevel error -y -i review.mp4 -vf "perspective=$way:sense=destination,scale=1280:720" -c:v libx264 -g 30 camera.mp4
+  cat >7.mcap.notes.json <<'END'
+{"version": 1, "bookmarks": [], "videos": [{"file": "camera.mp4", "moments": [{"session": 20, "video": 0}]}], "drawn": [
+  {"time": 25.9, "shape": "arrow", "place": "field", "from": [-0.5, 0.6], "to": [0.38, -0.18], "text": "did not turn round"},
+  {"time": 25.9, "shape": "circle", "place": "video", "on": "camera.mp4", "from": [0.56, 0.47], "to": [0.64, 0.47]},
+  {"time": 27.5, "shape": "arrow", "place": "plot", "on": "R3/TRUE_BALL_DIST", "unit": "cm", "from": [29.5, 110], "to": [27.5, 78], "text": "lost, and 70 cm away"}]}
+END
+  studio --session 7.mcap
+  find "R3/VISION_LOST"
+  find "R3/TRUE_BALL_DIST"
+  find "Panels: Video"
+  drag 720 470 400
+  click 955 855 # 0:27
+  shoot tutorial-review 3
+}
 tutorial-lost-ball() {
   recording
   studio --session match.mcap
@@ -321,6 +354,18 @@ statistics() {
   terminal statistics "pitchboard-cli statistics match.mcap --variables TRUE_X --robots B1,B2,R1 --against BELIEF_X --histogram 5"
 }
 
+library() {
+  local seed
+  mkdir -p Documents/Pitchboard
+  for seed in 4 5 7 8 9 12; do
+    "$bin/pitchboard-cli" record --scenario match-3v3 --seed $seed --duration 1:$((40 + seed)) -o "Documents/Pitchboard/training $seed.mcap" --force >/dev/null
+  done
+  echo '{"version": 1, "bookmarks": [{"time": 31, "note": "B2 lost its place after the fall"}]}' >"Documents/Pitchboard/training 7.mcap.notes.json"
+  head -c 300000 "Documents/Pitchboard/training 9.mcap" >"Documents/Pitchboard/cut off.mcap"
+  studio --scenario match-3v3 --paused
+  find "File: Library"
+  shoot library 5
+}
 plays() {
   "$bin/pitchboard-cli" record --scenario match-3v3 --duration 300 --seed 4 -o match.mcap --force
   studio --session match.mcap
@@ -344,6 +389,20 @@ tutorial-rerun-follow() {
   find "others follow"
   xdotool search --onlyvisible --name "others follow" windowfocus
   shoot tutorial-rerun-follow 2
+}
+tutorial-rerun-join() {
+  rm -f live.mcap robot1.mcap
+  "$bin/pitchboard-cli" record --live -o live.mcap &
+  local live=$!
+  "$bin/pitchboard-agent" --robot 1 --key 731100 --to 127.0.0.1 --record robot1.mcap &
+  local agent=$!
+  "$bin/pitchboard-cli" simulate --scenario match-3v3 --cognition separate --key-base 731000 --speed 1 --duration 60 >/dev/null
+  kill $agent $live && wait $agent $live || true
+  studio --session live.mcap
+  find "Add recording of a robot"
+  xdotool search --sync --onlyvisible --name "Add recording" windowfocus
+  xdotool type --delay 20 "$work/robot1.mcap" && sleep 0.5 && xdotool key Return
+  shoot tutorial-rerun-join 5
 }
 cli() { terminal cli "pitchboard-cli simulate --scenario match-3v3 --duration 60"; }
 building() { terminal building "$root/build/release/tests/tests_simcore tst_referee_parameters"; }
@@ -402,8 +461,8 @@ END
   rsvg-convert worlds.svg -o worlds.png
 }
 
-[ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots rollouts processes live plots replay experiments \
-  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-lost-ball tutorial-rerun tutorial-rerun-studio tutorial-rerun-follow building cli conformance continuous-integration file-formats performance plays rules statistics video worlds
+[ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots map-topics rollouts processes live plots replay experiments \
+  explore calibrate learning tutorial-compare tutorial-failing-test tutorial-review tutorial-lost-ball tutorial-rerun tutorial-rerun-studio tutorial-rerun-follow tutorial-rerun-join building cli conformance continuous-integration file-formats library performance plays rules statistics video worlds
 for name in "$@"; do
   "$name"
   if [ -f "$name.webp" ]; then

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <charconv>
 
+#include <nlohmann/json.hpp>
+
 #include <base/try.h>
+#include <robotlink/blackboard/cycle_words.h>
 #include <telemetry/pb2/pb2.h>
-#include <telemetry/wire/socket_address.h>
+#include <telemetry/sockets/socket_address.h>
 
 namespace pitchboard::agent {
 namespace {
@@ -64,6 +67,30 @@ Result<std::vector<std::string>> globsFrom(std::string_view text) {
   return globs;
 }
 
+/// "decision=460,localization=459"
+Result<std::vector<std::pair<std::string, int>>> cyclesFrom(std::string_view text) {
+  std::vector<std::pair<std::string, int>> cycles;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    const std::string_view one = text.substr(at, comma - at);
+    const std::size_t equals = one.find('=');
+    const std::string_view name = one.substr(0, equals);
+    const bool isName = !name.empty() && std::ranges::all_of(name, [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (equals == std::string_view::npos || !isName) {
+      return invalid(
+          "--record-cycles names processes in small letters and their words, such as decision=460, "
+          "not \"" +
+          std::string(one.substr(0, 40)) + "\"");
+    }
+    cycles.emplace_back(name, TRY(numberIn<int>("a word of --record-cycles", one.substr(equals + 1),
+                                                0, 511, "0 to 511")));
+    at = comma + 1;
+  }
+  return cycles;
+}
+
 Result<void> takeOption(Arguments& arguments, std::string_view option, std::string_view value) {
   if (option == "--robot") {
     arguments.robot = TRY(numberIn<int>(option, value, 1, telemetry::Pb2Limits::robots, "1 to 64"));
@@ -89,6 +116,8 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
     arguments.recordSize = TRY(numberIn<double>(option, value, 1.0, 1e6, "1 to 1000000 MB"));
   } else if (option == "--record-keep") {
     arguments.recordKeep = TRY(numberIn<double>(option, value, 2.0, 1e7, "2 to 10000000 MB"));
+  } else if (option == "--record-cycles") {
+    arguments.cycles = TRY(cyclesFrom(value));
   } else if (value == "none") {
     arguments.sends = false;
   } else {
@@ -106,9 +135,11 @@ Result<void> checkRecord(const Arguments& arguments) {
   }
   const Arguments usual;
   const bool isSet = arguments.recordKeep || arguments.recordRate != usual.recordRate ||
-                     arguments.recordSize != usual.recordSize;
+                     arguments.recordSize != usual.recordSize || !arguments.cycles.empty();
   if (isSet && arguments.record.empty()) {
-    return invalid("--record-rate, --record-size and --record-keep say how; add --record FILE");
+    return invalid(
+        "--record-rate, --record-size, --record-keep and --record-cycles say how; add --record "
+        "FILE");
   }
   if (arguments.recordKeep && *arguments.recordKeep < 2.0 * arguments.recordSize) {
     return invalid(
@@ -148,6 +179,9 @@ Options:
                         file, or in this folder in files named by robot and time
   --record-rate HZ      How often the blackboard is read for it, 1 to 500 (default 100)
   --record-size MB      Continue in a new file at this size (default 100)
+  --record-cycles P=W   Int variables in which programs announce their cycles, such as
+                        decision=460,localization=459: the blackboard is read at each beginning
+                        and end, and rerun runs exactly these cycles
   --record-keep MB      Delete the oldest files to stay below this size (default: keep all)
   -h, --help            Print this page
   --version             Print the version
@@ -155,8 +189,8 @@ Options:
 
 Result<Arguments> parseArguments(std::span<const char* const> argv) {
   static constexpr std::string_view options[] = {
-      "--robot", "--key",    "--rate",        "--limit",       "--variables",  "--catalog",
-      "--to",    "--record", "--record-rate", "--record-size", "--record-keep"};
+      "--robot", "--key",    "--rate",        "--limit",       "--variables",   "--catalog",
+      "--to",    "--record", "--record-rate", "--record-size", "--record-keep", "--record-cycles"};
   Arguments arguments;
   for (std::size_t i = 0; i < argv.size(); ++i) {
     const std::string_view argument = argv[i];
@@ -196,6 +230,28 @@ Result<Arguments> parseArguments(std::span<const char* const> argv) {
                    std::to_string(receivers) + " computers");
   }
   return arguments;
+}
+
+Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
+                                         const link::SegmentLayout& layout,
+                                         std::span<const std::pair<std::string, int>> cycles) {
+  if (cycles.empty()) return catalog;
+  auto map = nlohmann::ordered_json::parse(catalog.toJson(layout));
+  map.erase("segment");  // the map is for any
+  for (const auto& [process, word] : cycles) {
+    std::string name = process + std::string(link::cycleSuffix);
+    for (char& letter : name) {
+      if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    }
+    for (const link::Variable& known : catalog.variables()) {
+      const bool isThere = known.type == link::VariableType::Int && known.index == word;
+      if (!isThere || known.name == name) continue;
+      return invalid("the word " + std::to_string(word) + " of --record-cycles is " + known.name +
+                     "; choose one that the map leaves free");
+    }
+    map["int"][name] = word;
+  }
+  return link::VariableCatalog::fromJson(map.dump(), "--record-cycles");
 }
 
 bool matchesGlob(std::string_view glob, std::string_view name) {

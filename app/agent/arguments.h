@@ -9,11 +9,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <base/result.h>
 #include <robotlink/blackboard/variable_catalog.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::agent {
 
@@ -40,6 +41,8 @@ struct Arguments {
   double recordRate = 100.0;         ///< Hz
   double recordSize = 100.0;         ///< MB; of one file
   std::optional<double> recordKeep;  ///< MB; of all files, of which the oldest are deleted
+  /// Processes, and the int variables in which they announce their cycles.
+  std::vector<std::pair<std::string, int>> cycles;
   bool help = false, version = false;
 
   int boardKey() const { return key.value_or(100 * robot); }
@@ -55,6 +58,12 @@ extern const char* const helpText;
 /// Parses the arguments, without the program's name. Fails with InvalidArgument; the message names
 /// the option and its valid values.
 Result<Arguments> parseArguments(std::span<const char* const> argv);
+
+/// Returns the map with the variables of --record-cycles, such as DECISION_CYCLE. Fails with
+/// InvalidArgument if a word has another variable.
+Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
+                                         const link::SegmentLayout& layout,
+                                         std::span<const std::pair<std::string, int>> cycles);
 
 /// Returns whether the name matches. `*` stands for any characters, `?` for one.
 bool matchesGlob(std::string_view glob, std::string_view name);

@@ -19,6 +19,7 @@
 #include <robotlink/blackboard/variable_catalog.h>
 
 #include "arguments.h"
+#include "cycle_watch.h"
 #include "output.h"
 #include "recorder.h"
 #include "schedule.h"
@@ -145,11 +146,12 @@ Result<std::optional<Recorder>> recorderOf(const Arguments& arguments,
 
 Result<void> run(const Arguments& arguments) {
   link::SegmentLayout layout;
-  const link::VariableCatalog catalog =
+  const link::VariableCatalog map =
       arguments.catalog.empty() ? link::VariableCatalog::published()
                                 : TRY(link::VariableCatalog::fromFile(arguments.catalog, layout));
+  const link::VariableCatalog catalog = TRY(withCycles(map, layout, arguments.cycles));
   std::vector<link::Variable> chosen;
-  if (arguments.sends) chosen = TRY(chosenVariables(catalog, arguments.globs));
+  if (arguments.sends) chosen = TRY(chosenVariables(map, arguments.globs));
   std::vector<Output> outputs = TRY(outputsOf(arguments));
   std::optional<Recorder> recorder = TRY(recorderOf(arguments, catalog, layout));
   const ScheduleOptions options{
@@ -172,6 +174,8 @@ Result<void> run(const Arguments& arguments) {
   const auto stepOf = [](double rate) { return Time(static_cast<Time::rep>(1e6 / rate)); };
   const Time step = stepOf(arguments.readRate()), sendStep = stepOf(arguments.rate);
   std::vector<std::uint32_t> words, sent;
+  CycleWatch cycles(recorder ? catalog.variables() : std::span<const link::Variable>(),
+                    arguments.boardKey());
   Time tick = now(), sendTick = tick;
   while (!isAskedToEnd) {
     const Time time = now();
@@ -185,7 +189,10 @@ Result<void> run(const Arguments& arguments) {
         return failure(ErrorCode::SystemError, "nothing is recorded any more, and --to is none");
       }
     }
-    if (arguments.sends && tick >= sendTick) {
+    if (!seen.empty()) cycles.attach();
+    cycles.take(words);
+    const bool isTick = time >= tick;  // otherwise a cycle was announced
+    if (arguments.sends && isTick && tick >= sendTick) {
       sendTick = std::max(sendTick + sendStep, tick);
       takeChosen(catalog.variables(), words, chosen, sent);
       for (const std::string& datagram : schedule.next(time, sent)) {
@@ -193,8 +200,8 @@ Result<void> run(const Arguments& arguments) {
       }
     }
     // Ticks that were missed, because the computer slept or was busy, are left out.
-    tick = std::max(tick + step, now());
-    std::this_thread::sleep_until(Clock::time_point(tick));
+    if (isTick) tick = std::max(tick + step, now());
+    cycles.await(now(), tick);
   }
   return recorder ? recorder->finish() : Result<void>();
 }

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/sockets/udp_sender.h>
 
 namespace pitchboard::agent {
 

@@ -15,7 +15,7 @@
 #include <base/try.h>
 #include <base/unique_fd.h>
 #include <robotlink/live/live_pipeline.h>
-#include <telemetry/wire/message_format.h>
+#include <telemetry/formats/message_format.h>
 
 #include "commands.h"
 #include "listen_options.h"

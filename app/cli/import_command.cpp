@@ -23,9 +23,9 @@ struct ImportCommand {
 Result<link::ImportOptions> importOptions(const ImportCommand& command) {
   link::ImportOptions options;
   options.program = programName;
-  options.clock = command.clock == "header" ? link::ImportClock::Header
-                  : command.clock == "log"  ? link::ImportClock::Log
-                                            : link::ImportClock::Auto;
+  options.clock = command.clock == "header" ? link::RecordingClock::Header
+                  : command.clock == "log"  ? link::RecordingClock::Log
+                                            : link::RecordingClock::Auto;
   if (!command.mapping.empty()) options.mapping = TRY(link::mappingFromFile(command.mapping));
   return options;
 }

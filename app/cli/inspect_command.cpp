@@ -3,18 +3,19 @@
 
 #include <array>
 #include <cstdio>
-#include <ctime>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <telemetry/formats/text_errors.h>
 #include <telemetry/series/group_attributes.h>
 #include <telemetry/series/group_order.h>
-#include <telemetry/wire/text_errors.h>
 
 #include "commands.h"
 #include "interrupt.h"
 #include "live_json.h"
 #include "progress.h"
+#include "session_list.h"
 
 namespace pitchboard::cli {
 namespace {
@@ -22,22 +23,13 @@ namespace {
 using namespace telemetry;
 
 struct InspectOptions {
-  std::string file;
-  bool json = false, events = false, progress = false;
+  std::vector<std::string> places;
+  bool json = false, csv = false, events = false, progress = false;
+  const std::string& file() const { return places.front(); }
 };
 
 constexpr std::array<std::string_view, sessionStreamCount> streamNames{
     "events", "log", "telemetry", "referee/raw", "referee", "checkpoints", "live/state"};
-
-std::string wallText(WallTime time) {
-  const std::time_t seconds = std::chrono::system_clock::to_time_t(
-      std::chrono::time_point_cast<std::chrono::system_clock::duration>(time));
-  std::tm parts{};
-  if (!gmtime_r(&seconds, &parts)) return "?";
-  std::array<char, 40> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S UTC", &parts);
-  return text.data();
-}
 
 /// A channel that is not in our format.
 struct Topic {
@@ -66,7 +58,7 @@ std::vector<Topic> otherTopics(const SessionReader& session) {
 
 Json toJson(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
-  Json out{{"file", options.file},           {"bytes", session.file().contents().fileBytes},
+  Json out{{"file", options.file()},         {"bytes", session.file().contents().fileBytes},
            {"complete", session.complete()}, {"recording", session.isGrowing()},
            {"damaged", session.isDamaged()}, {"program", info.program},
            {"source", info.source},          {"title", info.title}};
@@ -118,7 +110,7 @@ Json toJson(const SessionReader& session, const InspectOptions& options) {
 
 void printText(const SessionReader& session, const InspectOptions& options) {
   const SessionInfo& info = session.info();
-  std::printf("%s: %.3f MB%s\n", options.file.c_str(),
+  std::printf("%s: %.3f MB%s\n", options.file().c_str(),
               static_cast<double>(session.file().contents().fileBytes) / 1e6,
               session.isGrowing() ? "; still being recorded"
               : session.complete() && !session.isDamaged()
@@ -168,13 +160,22 @@ void printText(const SessionReader& session, const InspectOptions& options) {
   for (const std::string& note : session.notes()) std::printf("%s\n", note.c_str());
 }
 
-int inspectSession(const InspectOptions& options) {
+Result<int> inspectSession(const InspectOptions& options) {
+  std::error_code unknown;
+  if (options.csv || options.places.size() > 1 ||
+      std::filesystem::is_directory(options.file(), unknown)) {
+    if (options.events) {
+      return failure(ErrorCode::InvalidArgument,
+                     "--events needs a single recording; `find` searches many.");
+    }
+    return listSessions({options.places, options.json, options.csv, options.progress});
+  }
   const InterruptGuard signals;
   Progress progress("reading", options.progress);
   McapReaderOptions reading;
   reading.progress = std::ref(progress);
-  const auto session = SessionReader::open(options.file, reading);
-  if (!session) return reportError(session.error());
+  auto session = SessionReader::open(options.file(), reading);
+  if (!session) return tl::unexpected(session.error());
   session->check(std::ref(progress));
   if (options.json) {
     std::printf("%s\n", dump(toJson(*session, options)).c_str());
@@ -191,16 +192,23 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
-                            "Summarize a recording and check all of it. Exits with 1 if it is "
+                            "Summarize a recording and check all of it. Of several, or of folders, "
+                            "it prints a line each, without checking them: date, length, score, "
+                            "teams, robots, events and notes. Exits with 1 if one is "
                             "truncated or damaged, or if "
                             "part of it is unknown, as in files of other programs.\n"
-                            "Example: pitchboard-cli inspect match.mcap --events");
-  command->add_option("file", options->file, "The recording")->required()->type_name("FILE");
-  command->add_flag("--json", options->json, "Print one JSON object");
+                            "Examples: pitchboard-cli inspect match.mcap --events\n"
+                            "          pitchboard-cli inspect matches/");
+  command->add_option("file", options->places, "The recording, or several and folders of them")
+      ->required()
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "One JSON object, or one for each of several");
+  command->add_flag("--csv", options->csv, "A line with commas per recording, and a header")
+      ->excludes("--json");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,
                     "Print progress to stderr even if it is not a terminal");
-  command->callback([options, &exitCode] { exitCode = inspectSession(*options); });
+  whenChosen(*command, options, exitCode, inspectSession);
 }
 
 }  // namespace pitchboard::cli

@@ -31,7 +31,14 @@ Result<int> join(const JoinCommand& command) {
     return link::joinRecording(command.session, command.recording, command.output, options,
                                std::ref(progress));
   }();
-  if (!report) return tl::unexpected(report.error());
+  if (!report) {
+    Error error = report.error();
+    if (error.code == ErrorCode::NotFound && error.context.empty()) {
+      error.context = "--robot, --offset";
+    }
+    return tl::unexpected(std::move(error));
+  }
+  for (const std::string& note : report->notes) std::fprintf(stderr, "%s\n", note.c_str());
   std::printf("%s: %s\n", command.output.c_str(), report->summary().c_str());
   return 0;
 }
@@ -43,14 +50,17 @@ void addJoinCommand(CLI::App& parent, int& exitCode) {
   CLI::App* command = parent.add_subcommand(
       "join",
       "Join a robot's own recording to a live session.\n"
-      "What pitchboard-agent --record wrote on the robot replaces the values that were received "
-      "from "
-      "it. The clocks are matched by the changes that both contain; the result is printed.\n"
+      "What pitchboard-agent --record wrote on the robot replaces the values of its blackboard "
+      "that "
+      "were received, or is added beside its messages. The clocks are matched by the changes that "
+      "both contain; the result is printed.\n"
       "Example: pitchboard-cli join match.mcap robot3.mcap -o joined.mcap");
   command->add_option("session", options->session, "The live session")
       ->required()
       ->type_name("SESSION");
-  command->add_option("recording", options->recording, "The robot's own recording")
+  command
+      ->add_option("recording", options->recording,
+                   "The robot's own recording; of several files that belong together, any one")
       ->required()
       ->type_name("RECORDING");
   command->add_option("-o,--output", options->output, "The joined session")

@@ -8,7 +8,7 @@
 #include <string>
 
 #include <robotlink/live/live_watch.h>
-#include <telemetry/wire/referee_json.h>
+#include <telemetry/referee/referee_json.h>
 
 namespace pitchboard::cli {
 

@@ -295,8 +295,9 @@ void addRerunCommand(CLI::App& parent, int& exitCode) {
       ->type_name("NAME");
   command
       ->add_option("--process", o.processes,
-                   "What runs: PROCESS=reference (ours), decision=BEHAVIOUR, or PROCESS=PROGRAM "
-                   "with its arguments or a runtime profile; may be repeated")
+                   "What runs: PROCESS=reference (ours), decision=BEHAVIOUR, PROCESS=PROGRAM "
+                   "with its arguments or a runtime profile, or a runtime profile alone "
+                   "(team.json) for all of its processes; may be repeated")
       ->required()
       ->type_name("PROCESS=PROGRAM")
       ->allow_extra_args(false);

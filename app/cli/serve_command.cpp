@@ -18,7 +18,7 @@
 #include <robotlink/session/match_recorder.h>
 #include <telemetry/foxglove/foxglove_server.h>
 #include <telemetry/session/session_time.h>
-#include <telemetry/wire/live_clock.h>
+#include <telemetry/sockets/live_clock.h>
 
 #include "commands.h"
 #include "interrupt.h"

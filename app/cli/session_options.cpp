@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "session_options.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
 #include <base/try.h>
+#include <telemetry/session/recording_files.h>
 #include <telemetry/session/session_time.h>
 
 namespace pitchboard::cli {
@@ -63,28 +63,6 @@ void addRobots(CLI::App& command, std::vector<std::string>& robots, const char* 
 void addVariables(CLI::App& command, std::vector<std::string>& variables, const char* description) {
   command.add_option("--variables", variables, description)->type_name("NAMES")->delimiter(',');
 }
-
-namespace {
-
-/// Returns the recordings of a folder and the folders in it, in order of their names.
-Result<std::vector<std::string>> recordingsIn(const std::string& folder) {
-  std::vector<std::string> out;
-  std::error_code error;
-  for (fs::recursive_directory_iterator
-           at(folder, fs::directory_options::skip_permission_denied, error),
-       end;
-       !error && at != end; at.increment(error)) {
-    std::error_code unknown;
-    if (at->path().extension() == ".mcap" && at->is_regular_file(unknown)) {
-      out.push_back(at->path().string());
-    }
-  }
-  if (error) return failure(ErrorCode::SystemError, error.message() + ".", folder);
-  std::ranges::sort(out);
-  return out;
-}
-
-}  // namespace
 
 Result<std::vector<std::string>> recordingsOf(const std::vector<std::string>& places) {
   std::vector<std::string> out;

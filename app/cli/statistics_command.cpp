@@ -15,6 +15,7 @@
 #include <base/nearest_name.h>
 #include <base/try.h>
 #include <base/wildcard.h>
+#include <telemetry/session/session_export.h>
 
 #include "commands.h"
 #include "interrupt.h"

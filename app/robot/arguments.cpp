@@ -10,7 +10,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/models/robot_models.h>
 #include <simcore/world/field_text.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::robot {
 namespace {

@@ -7,6 +7,7 @@
 #include <csignal>
 
 #include <base/try.h>
+#include <robotlink/processes/lock_step_orders.h>
 
 namespace pitchboard::robot {
 namespace {
@@ -96,7 +97,9 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
   while (true) {
     const auto cycle = slot.wait(maxWait);
     if (cycle) {
-      if (cycle->seconds < last) {
+      const auto messages = slot.messages();
+      const bool isTold = !messages.empty() && messages.front() == link::beginAnewOrder;
+      if (isTold || cycle->seconds < last) {
         process.reset();  // its ports are free again
         process = TRY(make());
         process->resume(board);

@@ -14,6 +14,7 @@
 #include <base/file_target.h>
 #include <robotlink/processes/team_program.h>
 #include <robotlink/session/recorded_frame.h>
+#include <telemetry/session/drawn_notes.h>
 #include <ui/base/save_file.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
@@ -123,6 +124,9 @@ int paintSession(const Arguments& arguments, WindowSize within) {
   const auto frame = std::make_shared<link::MatchFrame>(frames.frameAt(*session, range.begin));
   ui::FieldView field(static_cast<ui::FrameSource*>(nullptr), nullptr);
   field.showFrame(frame);
+  if (auto drawn = telemetry::readDrawnNotes(arguments.paint)) {
+    field.setDrawnNotes(std::move(drawn->notes));
+  }
   const QSize size(within.width, within.height);
   const QString suffix = QFileInfo(QString::fromStdString(arguments.picture)).suffix().toLower();
   const bool video = suffix == QLatin1String("mp4") || suffix == QLatin1String("webm");

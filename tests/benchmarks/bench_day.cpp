@@ -22,10 +22,10 @@
 
 #include <robotlink/live/live_pipeline.h>
 #include <robotlink/session/live_recorder.h>
+#include <telemetry/formats/text_protocol.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
-#include <telemetry/wire/text_protocol.h>
 #include <ui/sources/replay_controller.h>
 
 using namespace pitchboard;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How fast a recording of ROS 2 becomes a session, and how much memory that takes:
 //   bench_import make FILE MEGABYTES   writes one: joint states at 1 kHz, poses, tf, and images in
-//                                      between, which are 70 % of it; chunks are not compressed, as
-//                                      rosbag2 writes them
+//                                      between, which are 70 % of it; chunks are not compressed,
+//                                      and there is a summary, as rosbag2 writes them
 //   bench_import run FILE              imports it, and prints seconds, MB/s and peak memory
-// decode_recording.mjs decodes the same messages with the official packages.
+// decode_recording.mjs decodes the same messages with the official packages; import_speed.py
+// compares the two.
 #include <sys/resource.h>
 #include <chrono>
 #include <cmath>
@@ -110,25 +111,38 @@ class PlainFile {
   }
   ~PlainFile() { std::fclose(m_file); }
   void schema(std::uint16_t id, const std::string& name, const std::string& data) {
-    m_chunk += packed(3, number(id) + text(name) + text("ros2msg") + text(data));
+    define(packed(3, number(id) + text(name) + text("ros2msg") + text(data)));
+    ++m_schemas;
   }
   void channel(std::uint16_t id, const std::string& topic) {
-    m_chunk +=
-        packed(4, number(id) + number(id) + text(topic) + text("cdr") + number(std::uint32_t{0}));
+    define(
+        packed(4, number(id) + number(id) + text(topic) + text("cdr") + number(std::uint32_t{0})));
   }
   void message(std::uint16_t channel, std::uint64_t time, const std::string& bytes) {
     m_index[channel] += number(time) + number(static_cast<std::uint64_t>(m_chunk.size()));
     if (m_start == 0) m_start = time;
     m_end = time;
+    m_first = m_first == 0 ? time : m_first;
+    ++m_messages[channel];
     m_chunk +=
         packed(5, number(channel) + number(std::uint32_t{0}) + number(time) + number(time) + bytes);
     if (m_chunk.size() > 786'432) endChunk();
   }
   void endChunk() {
     const auto size = static_cast<std::uint64_t>(m_chunk.size());
+    const std::uint64_t begin = m_written;
     record(6, number(m_start) + number(m_end) + number(size) + number(std::uint32_t{0}) + text("") +
                   number(size) + m_chunk);
-    for (const auto& [channel, entries] : m_index) record(7, number(channel) + text(entries));
+    const std::uint64_t end = m_written;
+    std::string places;
+    for (const auto& [channel, entries] : m_index) {
+      places += number(channel) + number(m_written);
+      record(7, number(channel) + text(entries));
+    }
+    m_chunkIndex += packed(8, number(m_start) + number(m_end) + number(begin) +
+                                  number(end - begin) + text(places) + number(m_written - end) +
+                                  text("") + number(size) + number(size));
+    ++m_chunks;
     m_index.clear();
     m_chunk.clear();
     m_start = 0;
@@ -136,7 +150,18 @@ class PlainFile {
   void finish() {
     endChunk();
     record(15, number(std::uint32_t{0}));
-    record(2, number(std::uint64_t{0}) + number(std::uint64_t{0}) + number(std::uint32_t{0}));
+    std::uint64_t messages = 0;
+    std::string counts;
+    for (const auto& [channel, count] : m_messages) {
+      messages += count;
+      counts += number(channel) + number(count);
+    }
+    const std::uint64_t summary = m_written;
+    m_out += m_definitions + m_chunkIndex;
+    record(11, number(messages) + number(m_schemas) + number(std::uint32_t{m_schemas}) +
+                   number(std::uint32_t{0}) + number(std::uint32_t{0}) + number(m_chunks) +
+                   number(m_first) + number(m_end) + text(counts));
+    record(2, number(summary) + number(std::uint64_t{0}) + number(std::uint32_t{0}));
     m_out.append("\x89MCAP0\r\n", 8);
     flush();
   }
@@ -155,6 +180,10 @@ class PlainFile {
   static std::string packed(char op, const std::string& content) {
     return op + number(static_cast<std::uint64_t>(content.size())) + content;
   }
+  void define(const std::string& definition) {
+    m_chunk += definition;
+    m_definitions += definition;
+  }
   void record(char op, const std::string& content) {
     m_out += packed(op, content);
     flush();
@@ -165,8 +194,12 @@ class PlainFile {
   }
   std::FILE* m_file;
   std::string m_out, m_chunk;
+  std::string m_definitions, m_chunkIndex;
   std::map<std::uint16_t, std::string> m_index;
-  std::uint64_t m_start = 0, m_end = 0, m_written = 0;
+  std::map<std::uint16_t, std::uint64_t> m_messages;
+  std::uint64_t m_start = 0, m_end = 0, m_first = 0, m_written = 0;
+  std::uint16_t m_schemas = 0;  ///< and as many channels
+  std::uint32_t m_chunks = 0;
 };
 
 int make(const char* path, double megabytes) {

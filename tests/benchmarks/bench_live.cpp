@@ -25,8 +25,8 @@
 
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/blackboard/variable_catalog.h>
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/text_protocol.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 #include <ui/sources/live_controller.h>

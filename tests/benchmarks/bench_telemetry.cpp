@@ -9,9 +9,9 @@
 #include <fstream>
 #include <thread>
 
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/team_monitor.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/monitor/team_monitor.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/sockets/udp_receiver.h>
 
 #include "../support/test_socket.h"
 

@@ -18,8 +18,8 @@
 #include <robotlink/scenario/scenario.h>
 #include <simcore/physics/physics_model.h>
 #include <simcore/world/field.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
-#include <telemetry/wire/profile.h>
+#include <telemetry/formats/profile.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 namespace tst_documents {
 

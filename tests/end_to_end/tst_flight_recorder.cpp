@@ -7,6 +7,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
+#include <set>
+
 #include "../support/program_run.h"
 #include "../support/segment_keys.h"
 
@@ -110,6 +112,65 @@ class TestFlightRecorder : public QObject {
       planted += one["rerun"] == 18.0 ? 1 : 0;
     }
     QVERIFY2(planted > 0, QJsonDocument(changed).toJson().constData());
+  }
+
+  /// A program announces its cycles, each with an input that it has left to it and an output that
+  /// follows from that. The recording has each cycle's beginning and end, whatever the rate.
+  void announcedCyclesAreRecorded() {
+    constexpr std::size_t cycles = 60;
+    write("announces.py", R"(
+import ctypes, os, sys, time
+libc = ctypes.CDLL(None)
+libc.shmat.restype = ctypes.c_void_p
+address = libc.shmat(libc.shmget(int(sys.argv[1]), 2048, 0), None, 0)
+ints = (ctypes.c_int * 512).from_address(address)
+futex = {"x86_64": 202, "aarch64": 98}[os.uname().machine]
+def announce(value):
+    ints[460] = value
+    libc.syscall(futex, ctypes.c_void_p(address + 4 * 460), 1, 2**31 - 1, None, None, 0)
+for n in range(1, 61):
+    ints[19] = 1000 + n          # what it reads
+    time.sleep(0.03)
+    announce(n)                  # cycle n begins
+    time.sleep(0.02)
+    ints[18] = 2 * ints[19]      # what it writes
+    announce(-n)                 # and is complete
+    time.sleep(0.02)
+)");
+    const int key = testKeyBase() + 300;
+    QCOMPARE(cli({"blackboard", "create", "--key", QString::number(key)}).exitCode, 0);
+    QProcess agent;
+    agent.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+                {"--robot", "3", "--key", QString::number(key), "--to", "none", "--record",
+                 path("cycles.mcap"), "--record-rate", "2", "--record-cycles", "decision=460"});
+    QByteArray reported;
+    QTRY_VERIFY((reported += agent.readAllStandardError(), reported.contains("reading ")));
+    // The first reading shows a word that is not 0 yet; from then on each change is noticed.
+    QProcess program;
+    program.start("python3", {path("announces.py"), QString::number(key)});
+    QVERIFY(program.waitForFinished() && program.exitCode() == 0);
+    agent.terminate();
+    QVERIFY(agent.waitForFinished() && agent.exitCode() == 0);
+    QCOMPARE(cli({"blackboard", "remove", "--key", QString::number(key)}).exitCode, 0);
+    const QString csv = path("cycles.csv");
+    QCOMPARE(cli({"export", path("cycles.mcap"), "--to", "csv-wide", "--variables",
+                  "DECISION_CYCLE,DECISION_ACTION_B,DECISION_STATE", "-o", csv, "--force"})
+                 .exitCode,
+             0);
+    std::set<int> begun, complete;
+    for (const QByteArray& line : contents(csv).split('\n').mid(1)) {
+      const QList<QByteArray> cells = line.trimmed().split(',');
+      if (cells.size() != 4) continue;
+      const int n = cells[1].toInt();
+      if (n > 0) {
+        begun.insert(n);
+        QCOMPARE(cells[3].toInt(), 1000 + n);
+      }
+      if (n < 0 && complete.insert(-n).second) QCOMPARE(cells[2].toInt(), 2 * (1000 - n));
+    }
+    // On a busy computer single ones may be missed; at 2 Hz alone 8 would be there.
+    QVERIFY2(begun.size() >= cycles * 3 / 4, qPrintable(QString::number(begun.size())));
+    QVERIFY2(complete.size() >= cycles * 3 / 4, qPrintable(QString::number(complete.size())));
   }
 };
 

@@ -34,7 +34,7 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-NOT_RUN = {"agent": 5, "building": 2, "continuous-integration": 1, "install": 2, "learning": 1, "performance": 1, "readme": 2, "referee": 1, "sessions": 1}
+NOT_RUN = {"agent": 6, "building": 2, "continuous-integration": 1, "install": 2, "learning": 1, "performance": 1, "readme": 2, "referee": 1, "sessions": 1}
 REPOSITORY = ("tests/data", "docs/examples", "docs/recipes", "resources")
 NOTEBOOK = """
 import contextlib, io, json, sys, traceback

@@ -150,8 +150,8 @@ class TestPythonSession(unittest.TestCase):
         bad = self.folder / "bad.mcap"
         bad.write_bytes(b"no recording at all, but some text" * 10)
         for path in (bad, self.folder / "missing.mcap", self.folder):
-            said = subprocess.run([os.path.join(PROGRAMS, "pitchboard-cli"), "inspect", str(path)],
-                                  capture_output=True, text=True).stderr
+            said = subprocess.run([os.path.join(PROGRAMS, "pitchboard-cli"), "export", str(path), "--to",
+                                   "csv-wide"], capture_output=True, text=True).stderr
             with self.assertRaises(pitchboard.PitchboardError) as raised:
                 pitchboard.open(path)
             self.assertIn(str(raised.exception), said)

@@ -10,9 +10,9 @@
 #include <QtTest>
 
 #include <robotlink/session/session_events.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/program_run.h"
 #include "../support/test_socket.h"

@@ -10,7 +10,7 @@
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"

@@ -3,8 +3,8 @@
 #include <QtTest>
 #include <csignal>
 
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/text_protocol.h>
 
 #include "../support/test_socket.h"
 #include "studio_program.h"

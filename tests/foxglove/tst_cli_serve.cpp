@@ -8,15 +8,21 @@
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QProcess>
+#include <QScopeGuard>
 #include <QTcpSocket>
 #include <QTemporaryDir>
 #include <QtTest>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <csignal>
 #include <functional>
+#include <mutex>
+#include <thread>
 
 #include <robotlink/serve/served_match.h>
 #include <telemetry/foxglove/foxglove_client.h>
@@ -24,6 +30,7 @@
 #include <telemetry/series/losable.h>
 #include <telemetry/session/session_reader.h>
 
+#include "../robotlink/live_ports.h"
 #include "../support/program_run.h"
 
 namespace tst_cli_serve {
@@ -171,6 +178,7 @@ class TestCliServe : public QObject {
     group.name = "B1";
     group.columns = {column};
     group.id = "1 messages";
+    group.robot.emplace().slot = 1;
     const GroupId id = served.addGroup(group);
     FoxgloveClient client(
         {.host = "127.0.0.1", .port = server->port()}, [] { return WallTime(); }, [] {});
@@ -216,6 +224,99 @@ class TestCliServe : public QObject {
     served.addGroup(other);
     QTRY_VERIFY2(hasSeen("+6 /robots/B2/row"), qPrintable(seen.join(", ")));
     QCOMPARE(seen, QStringList{"+6 /robots/B2/row"});
+  }
+
+  /// A match that nobody looks at costs nothing: what a client sees first is made when it asks.
+  void nothingIsMadeForNobody() {
+    using namespace telemetry;
+    FoxgloveServerOptions options;
+    options.port = 0;
+    options.sessionId = "1";
+    const auto server = FoxgloveServer::start(options).value();
+    FoxgloveChannel channel;
+    channel.id = 1;
+    channel.topic = "/x";
+    channel.encoding = "json";
+    server->advertise(channel);
+    const auto made = std::make_shared<std::atomic<int>>(0);
+    const auto send = [&](int number) {
+      server->sendKept(1, static_cast<std::uint64_t>(number), [made, number] {
+        ++*made;
+        return std::to_string(number);
+      });
+    };
+    for (int i = 1; i <= 100; ++i) send(i);
+    FoxgloveClient client(
+        {.host = "127.0.0.1", .port = server->port()}, [] { return WallTime(); }, [] {});
+    std::uint64_t session = 0;
+    QStringList seen;
+    const auto hasSeen = [&](const char* payload) {
+      for (const FoxgloveEvent& event : client.take()) {
+        if (const auto* begun = std::get_if<FoxgloveBegun>(&event)) session = begun->session;
+        if (std::holds_alternative<FoxgloveChannelsAdded>(event)) client.subscribe(session, {1});
+        if (const auto* message = std::get_if<FoxgloveReceived>(&event)) {
+          seen << QString::fromStdString(message->payload);
+        }
+      }
+      return seen.contains(QLatin1String(payload));
+    };
+    QTRY_VERIFY2(hasSeen("100"), qPrintable(seen.join(", ")));
+    QCOMPARE(made->load(), 1);
+    QCOMPARE(seen, QStringList{"100"});
+    send(101);
+    QTRY_VERIFY(hasSeen("101"));
+    QCOMPARE(made->load(), 2);
+  }
+
+  /// `serve --live`: robots that send to this computer are channels with their rows, and are on the
+  /// field.
+  void liveRobotsAreServed() {
+    const link::LiveOptions ports = freeOptions(2);
+    Server server({"--live", "--bind", "127.0.0.1", "--robots", "2", "--port-base",
+                   QString::number(ports.portBase), "--gamecontroller-port",
+                   QString::number(ports.refereePort), "--rate", "20"});
+    QVERIFY2(server.port() != 0, qPrintable(server.url()));
+    // A robot that sends twenty times a second until it is ended.
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool isOver = false;
+    std::thread robot([&] {
+      const TestSocket socket;
+      std::unique_lock lock(mutex);
+      for (int sent = 0; !isOver; ++sent) {
+        socket.send(static_cast<std::uint16_t>(ports.portBase + 1),
+                    "1 " + std::to_string(300 + sent % 50) +
+                        " 200 45 56.3 184.6 41.0 1 1 1 1 1 8 0.05 189 OUT");
+        changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return isOver; });
+      }
+    });
+    const auto end = qScopeGuard([&] {
+      {
+        const std::lock_guard lock(mutex);
+        isOver = true;
+      }
+      changed.notify_all();
+      robot.join();
+    });
+    const auto isRow = [](const QJsonObject& one) {
+      return one["topic"].toString().startsWith("/robots/") &&
+             one["message"]["LOCALIZATION_X"].isDouble();
+    };
+    const auto isField = [](const QJsonObject& one) {
+      return one["topic"] == "/field" &&
+             !one["message"]["entities"][1]["cylinders"].toArray().isEmpty();
+    };
+    const auto lines = received(server.url(), "official", [&](const QList<QJsonObject>& seen) {
+      return std::ranges::count_if(seen, isRow) >= 5 && std::ranges::any_of(seen, isField);
+    });
+    const auto row = std::find_if(lines.rbegin(), lines.rend(), isRow);
+    QVERIFY(row != lines.rend());
+    const QJsonObject message = (*row)["message"].toObject();
+    QVERIFY(message["LOCALIZATION_X"].toDouble() >= 300.0);
+    QCOMPARE(message["LOCALIZATION_Y"].toDouble(), 200.0);
+    QVERIFY(std::ranges::any_of(lines, isField));
+    QVERIFY(std::ranges::any_of(lines, [](const QJsonObject& one) { return one.contains("now"); }));
+    QCOMPARE(server.end(), 0);
   }
 
   void playbackIsControlled() {

@@ -3,7 +3,7 @@
 // and leaves a bounded book that its own pages make again.
 #include <cstdlib>
 
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
 
 using namespace pitchboard::telemetry;
 

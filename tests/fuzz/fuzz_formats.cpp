@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a message of each built-in profile; the first byte chooses one.
-#include <telemetry/wire/team_setup.h>
+#include <telemetry/monitor/team_setup.h>
 
 #include <cstdlib>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a team's profile; what is accepted must read back the same.
-#include <telemetry/wire/profile.h>
+#include <telemetry/formats/profile.h>
 
 #include <cstdlib>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Any bytes as a datagram on the referee's port.
-#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/referee/referee_tracker.h>
 
 #include <cstdlib>
 

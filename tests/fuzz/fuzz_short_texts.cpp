@@ -11,7 +11,7 @@
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/live/attached_robots.h>
 #include <telemetry/expression/expression.h>
-#include <telemetry/wire/sender_filter.h>
+#include <telemetry/monitor/sender_filter.h>
 
 #include "soccer/aim_habit.h"
 

@@ -57,6 +57,7 @@ inline QString difference(const RobotFrame& a, const RobotFrame& b) {
   SAME(penalty);
   SAME(values);
   SAME(behaviour);
+  SAME(programs);
   SAME(link.has_value());
   return a.link ? difference(*a.link, *b.link) : QString();
 }

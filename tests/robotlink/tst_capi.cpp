@@ -65,7 +65,7 @@ void writeSession(const std::string& path) {
   about.title = "five rows";
   about.seed = 7;
   auto writer = telemetry::SessionWriter::create(path, about).value();
-  const telemetry::GroupInfo robot{
+  telemetry::GroupInfo robot{
       "B1",
       {{"LOST", telemetry::ColumnType::Int32, "", "Vision", telemetry::ColumnKind::Flag, {}},
        {"DIST",
@@ -78,6 +78,7 @@ void writeSession(const std::string& path) {
         {{"LOST", 1.0}}},
        {"X", telemetry::ColumnType::Float64, "m", "Truth", telemetry::ColumnKind::Number, {}}},
       telemetry::facts({{"robot", "1"}})};
+  robot.robot->formerNames = {"R1"};
   const telemetry::GroupId id = writer->addGroup(robot);
   for (int t = 0; t < 5; ++t) {
     const std::uint32_t words[] = {static_cast<std::uint32_t>(t % 2),
@@ -501,6 +502,12 @@ class TestCapi : public QObject {
     QCOMPARE(group["columns"][1]["type"].toInt(), int(PB_FLOAT32));
     QCOMPARE(pb_data_free(data), PB_OK);
     QCOMPARE(pb_data_free(data), PB_STALE_HANDLE);
+
+    std::int32_t index = -1;
+    QCOMPARE(pb_session_group(session, "R1", &index), PB_OK);  // before a correction
+    QCOMPARE(index, 0);
+    QCOMPARE(pb_session_group(session, "R2", &index), PB_NOT_FOUND);
+    QVERIFY(QByteArray(pb_last_error()).contains("B1"));
 
     const std::int32_t columns[] = {2, 1, 0};
     QCOMPARE(pb_session_rows(session, 0, columns, 3, 1.0, 3.0, PB_UNKNOWN_NAN, &data), PB_OK);

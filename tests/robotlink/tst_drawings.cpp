@@ -17,7 +17,7 @@
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/recorded_frame.h>
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/formats/text_protocol.h>
 
 #include "../support/segment_keys.h"
 #include "frame_difference.h"

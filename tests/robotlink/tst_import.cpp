@@ -8,12 +8,12 @@
 #include <fstream>
 
 #include <base/angles.h>
+#include <base/base64.h>
 #include <robotlink/import/import_session.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/base64.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
 
 namespace tst_import {
 
@@ -253,7 +253,7 @@ class TestImport : public QObject {
 
   void headerOrLogTime() {
     ImportOptions options;
-    const auto first = [&](ImportClock clock, const char* name) {
+    const auto first = [&](RecordingClock clock, const char* name) {
       options.clock = clock;
       const auto session =
           SessionReader::open(import({recording("ros1.mcap")}, name, options)).value();
@@ -261,10 +261,10 @@ class TestImport : public QObject {
              std::chrono::nanoseconds(std::llround(session.range()->begin * 1e9));
     };
     // The headers count from 100 s after 1970, half a century before the log times.
-    QCOMPARE(first(ImportClock::Header, "header.mcap").count(), std::int64_t{100'000'000'005});
-    QCOMPARE(first(ImportClock::Log, "logtime.mcap").count(),
+    QCOMPARE(first(RecordingClock::Header, "header.mcap").count(), std::int64_t{100'000'000'005});
+    QCOMPARE(first(RecordingClock::Log, "logtime.mcap").count(),
              std::int64_t{1'751'364'000'000'000'000});
-    QCOMPARE(first(ImportClock::Auto, "auto.mcap").count(),
+    QCOMPARE(first(RecordingClock::Auto, "auto.mcap").count(),
              std::int64_t{1'751'364'000'000'000'000});
     QVERIFY(std::ranges::any_of(m_report.notes, [](const std::string& note) {
       return note.find("another clock") != std::string::npos;
@@ -280,7 +280,7 @@ class TestImport : public QObject {
     reply.pose = {1500.0F, -500.0F, 0.0F};
     reply.ballAge = 0.1F;
     reply.ball = {1000.0F, 0.0F};
-    const std::string status = telemetry::toBase64(*telemetry::encodeReply(reply));
+    const std::string status = toBase64(*telemetry::encodeReply(reply));
     const auto state = [](int secs, const char* name, int score, const char* penalty) {
       return "- timestamp: {secs: " + std::to_string(secs) +
              ", nanos: 0}\n  entry: !gameState\n    sides: homeDefendsRightGoal\n    stopped: "

@@ -2,108 +2,56 @@
 // A robot's own recording is joined to a live session of the same match.
 #include <QtTest>
 
-#include <array>
-#include <cmath>
-#include <random>
-
-#include <robotlink/live/board_facts.h>
 #include <robotlink/session/join_recording.h>
-#include <robotlink/session/match_sampler.h>
-#include <robotlink/session/row_slot.h>
-#include <telemetry/session/session_writer.h>
+
+#include "../support/joined_recordings.h"
 
 namespace tst_join_recording {
 
 using namespace pitchboard;
 using namespace pitchboard::link;
+using namespace joined_recordings;
 
 namespace {
 
-constexpr double plantedOffset = -12.345, plantedDrift = 80e-6;
-constexpr double minutes = 3.0;
+constexpr double length = 180.0;  // s
 
-/// The rows of one robot of a match, with the columns of its blackboard.
-class RobotRows : public telemetry::RowSink {
- public:
-  explicit RobotRows(std::string robot) : m_robot(std::move(robot)) {}
-  telemetry::GroupId addGroup(const telemetry::GroupInfo& info) override {
-    m_names.push_back(info.name);
-    if (info.name == m_robot) {
-      for (const telemetry::ColumnInfo& column : info.columns) {
-        if (column.type != telemetry::ColumnType::Float64) columns.push_back(column);
-      }
-    }
-    return static_cast<telemetry::GroupId>(m_names.size() - 1);
-  }
-  void append(telemetry::GroupId group, const telemetry::RowView& row) override {
-    if (m_names[group] != m_robot) return;
-    rows.emplace_back(row.time, std::vector(row.words.begin(), row.words.end()));
-  }
-  std::vector<telemetry::ColumnInfo> columns;
-  std::vector<std::pair<double, std::vector<std::uint32_t>>> rows;
-
- private:
-  std::string m_robot;
-  std::vector<std::string> m_names;
-};
-
-std::shared_ptr<RobotRows> playedBy(const std::string& robot, std::uint64_t seed) {
-  Scenario scenario = loadScenario("match-3v3").value();
-  scenario.settings.seed = seed;
-  scenario.stop = {};
-  auto match = SimulatedMatch::create(scenario, {}).value();
-  auto rows = std::make_shared<RobotRows>(robot);
-  MatchSampler sampler(rows);
-  for (int i = 0; i < static_cast<int>(minutes * 60.0 * 60.0); ++i) {
-    match.tick();
-    sampler.ticked(match, {});
-  }
-  return rows;
-}
-
-telemetry::SessionWriterOptions completely() {
-  telemetry::SessionWriterOptions options;
-  options.waitWhenFull = true;
-  return options;
-}
-
-/// As pitchboard-agent records, on a clock that is off.
-std::string ownRecording(const QTemporaryDir& folder, const RobotRows& played, int number) {
+std::string ownRecording(const QTemporaryDir& folder, const PlayedRows& played, int number) {
   const std::string path = folder.filePath("robot.mcap").toStdString();
-  auto writer = telemetry::SessionWriter::create(path, {}, completely()).value();
-  telemetry::GroupInfo group{"B" + std::to_string(number), played.columns};
-  group.robot = factsOfBoard(100 * number, 100.0, number, TeamColor::Blue);
-  const auto id = writer->addGroup(group);
-  for (const auto& [time, words] : played.rows) {
-    writer->append(id, {(time - plantedOffset) / (1.0 + plantedDrift), words, {}});
-  }
-  if (!writer->finish()) qFatal("not written");
+  writeOwn(path, played, number);
   return path;
 }
 
-/// As Live records what was sent: 20 times a second, every fifth datagram is lost, and each comes
-/// up to 5 ms late.
-std::string liveSession(const QTemporaryDir& folder, const RobotRows& played, int number) {
+std::string liveSession(const QTemporaryDir& folder, const PlayedRows& played, int number) {
   const std::string path = folder.filePath("live.mcap").toStdString();
-  telemetry::SessionInfo info;
-  info.source = "live";
-  auto writer = telemetry::SessionWriter::create(path, info, completely()).value();
-  telemetry::GroupInfo group{"R" + std::to_string(number), played.columns};
-  group.columns.emplace_back().name = "AGENT_LOSS";
-  group.robot.emplace();
-  group.robot->slot = group.robot->number = number;
-  group.robot->sentFrom = "10.0.0.3";
-  const auto id = writer->addGroup(group);
-  std::mt19937 random(4);
-  const std::array<double, 1> loss{0.2};
-  for (std::size_t i = 0; i < played.rows.size(); i += 3) {
-    if (random() % 5 == 0) continue;
-    const double late = 0.005 * static_cast<double>(random() % 1000) / 1000.0;
-    writer->append(id, {played.rows[i].first + late, played.rows[i].second, loss});
-  }
-  writer->append(telemetry::SessionEvent{30.0, "bookmark", "", "here"});
-  if (!writer->finish()) qFatal("not written");
+  LiveSession session(path);
+  session.addBoard("R" + std::to_string(number), number, played);
+  session.finish();
   return path;
+}
+
+/// The rows of a group, without those of the columns that only the session has.
+struct Values {
+  std::vector<double> times;
+  std::vector<std::vector<std::uint32_t>> words;
+};
+Values valuesOf(const std::string& path, const std::string& group) {
+  const auto session = telemetry::SessionReader::open(path).value();
+  Values all;
+  for (telemetry::GroupId id = 0; id < session.groups().size(); ++id) {
+    if (session.groups()[id].info.name != group) continue;
+    const std::array<telemetry::GroupId, 1> only{id};
+    session.rows({-1e18, 1e18}, only, [&](telemetry::GroupId, const telemetry::RowView& row) {
+      all.times.push_back(row.time);
+      all.words.emplace_back(row.words.begin(), row.words.end());
+      return true;
+    });
+  }
+  return all;
+}
+
+QString message(const Result<JoinReport>& report) {
+  return report ? QStringLiteral("no error") : QString::fromStdString(report.error().text());
 }
 
 }  // namespace
@@ -111,12 +59,12 @@ std::string liveSession(const QTemporaryDir& folder, const RobotRows& played, in
 class TestJoinRecording : public QObject {
   Q_OBJECT
   QTemporaryDir m_folder;
-  std::shared_ptr<RobotRows> m_played;
+  std::shared_ptr<PlayedRows> m_played;
   std::string m_own, m_live;
 
  private slots:
   void initTestCase() {
-    m_played = playedBy("B1", 5);
+    m_played = playedBy("B1", 5, length);
     m_own = ownRecording(m_folder, *m_played, 1);
     m_live = liveSession(m_folder, *m_played, 1);
   }
@@ -127,10 +75,13 @@ class TestJoinRecording : public QObject {
     const std::string joined = m_folder.filePath("joined.mcap").toStdString();
     const auto report = joinRecording(m_live, m_own, joined, {});
     if (!report) QFAIL(report.error().text().c_str());
-    const ClockFit& clock = report->clock;
+    const RobotClock& clock = report->clock;
     QVERIFY2(std::abs(clock.offset - plantedOffset) < 0.010, report->summary().c_str());
     QVERIFY2(std::abs(clock.drift - plantedDrift) < 20e-6, report->summary().c_str());
-    QVERIFY2(clock.residual < 0.030 && clock.changes > 1000, report->summary().c_str());
+    const ClockAgreement& agreed = report->agreement;
+    QVERIFY2(agreed.residual < 0.030 && agreed.agree > 1000 && agreed.share() > 0.6,
+             report->summary().c_str());
+    QVERIFY(report->fit && report->fit->offsetError < 0.002 && report->fit->driftError < 20e-6);
     QCOMPARE(report->robot, std::string("R1"));
     QCOMPARE(report->rows, m_played->rows.size());
     QVERIFY(report->replaced > 2000);
@@ -167,21 +118,139 @@ class TestJoinRecording : public QObject {
     QVERIFY(std::abs(session.range()->end - (last * (1.0 + 1e-4) - 12.0)) < 1e-6);
   }
 
-  /// Where the robot did not record, the received values stay.
+  /// Where the robot did not record, the received values stay: before, after, and while it had no
+  /// blackboard for ten seconds.
   void keepsTheRestOfTheSession() {
-    RobotRows part("B1");
-    part.columns = m_played->columns;
-    part.rows.assign(m_played->rows.begin() + 3600, m_played->rows.begin() + 7200);
+    PlayedRows part = partOf(*m_played, 3600, 7200);
+    part.rows.erase(part.rows.begin() + 1200, part.rows.begin() + 1800);
     QTemporaryDir folder;
     const std::string joined = folder.filePath("joined.mcap").toStdString();
     const auto report = joinRecording(m_live, ownRecording(folder, part, 1), joined, {});
     if (!report) QFAIL(report.error().text().c_str());
     QVERIFY(std::abs(report->clock.offset - plantedOffset) < 0.015);
-    const auto before = telemetry::SessionReader::open(m_live).value();
-    const auto after = telemetry::SessionReader::open(joined).value();
-    QCOMPARE(after.groups()[0].rows, before.groups()[0].rows - report->replaced + report->rows);
-    QCOMPARE(after.range()->begin, before.range()->begin);
-    QCOMPARE(after.range()->end, before.range()->end);
+    const Values before = valuesOf(m_live, "R1"), after = valuesOf(joined, "R1");
+    QCOMPARE(after.times.size(), before.times.size() - report->replaced + report->rows);
+    QCOMPARE(after.times.front(), before.times.front());
+    QCOMPARE(after.times.back(), before.times.back());
+    const auto count = [](const Values& values, double from, double until) {
+      return std::ranges::count_if(values.times, [=](double t) { return t > from && t < until; });
+    };
+    const double gap = m_played->rows[4800].first + 0.1;
+    QVERIFY(count(before, gap, gap + 9.8) > 100);
+    QCOMPARE(count(after, gap, gap + 9.8), count(before, gap, gap + 9.8));
+  }
+
+  /// Whichever of its files is named. A file of an earlier start, whose clock is another one, and
+  /// one that cannot be read do not belong to it.
+  void joinsAllFilesOfARecordingAsOne_data() {
+    QTest::addColumn<QString>("named");
+    QTest::newRow("the first") << "flight.mcap";
+    QTest::newRow("another") << "flight-003.mcap";
+  }
+  void joinsAllFilesOfARecordingAsOne() {
+    QFETCH(QString, named);
+    QTemporaryDir folder;
+    const auto path = [&folder](const char* name) { return folder.filePath(name).toStdString(); };
+    writeOwn(path("flight.mcap"), partOf(*m_played, 0, 4000), 1, 1, "5000000");
+    // Each file begins with the newest values of the one before.
+    writeOwn(path("flight-002.mcap"), partOf(*m_played, 3999, 7000), 1, 2, "5000000");
+    writeOwn(path("flight-003.mcap"), partOf(*m_played, 6999, 20000), 1, 3, "5000000");
+    writeOwn(path("flight-004.mcap"), partOf(*m_played, 0, 300), 1, 4, "7000000");
+    QFile empty(folder.filePath("flight-005.mcap"));
+    QVERIFY(empty.open(QIODevice::WriteOnly) && empty.write("nothing") > 0);
+    empty.close();
+    const std::string joined = path("joined.mcap");
+    const auto report = joinRecording(m_live, path(qPrintable(named)), joined, {});
+    QVERIFY2(report, qPrintable(message(report)));
+    QCOMPARE(report->files, std::size_t{3});
+    QCOMPARE(report->rows, m_played->rows.size());
+    QCOMPARE(report->notes.size(), std::size_t{1});
+    QVERIFY2(report->notes[0].starts_with("flight-005.mcap is left out"), report->notes[0].c_str());
+    const Values all = valuesOf(joined, "R1");
+    QCOMPARE(all.times.size(), m_played->rows.size());
+    for (std::size_t i = 0; i < all.words.size(); ++i) {
+      QVERIFY(std::ranges::equal(m_played->rows[i].second, all.words[i]));
+      QVERIFY(i == 0 || all.times[i] > all.times[i - 1]);
+    }
+    // Without the one in the middle, what was received then stays.
+    QVERIFY(QFile::remove(folder.filePath("flight-002.mcap")));
+    JoinOptions again;
+    again.replace = true;
+    const auto without = joinRecording(m_live, path(qPrintable(named)), joined, again);
+    QVERIFY2(without, qPrintable(message(without)));
+    QCOMPARE(without->files, std::size_t{2});
+    QCOMPARE(without->notes.size(), std::size_t{2});
+    QVERIFY2(without->notes[1].find("flight-003.mcap a file of the recording is missing") !=
+                 std::string::npos,
+             without->notes[1].c_str());
+    const std::uint64_t received = valuesOf(m_live, "R1").times.size();
+    QVERIFY(without->replaced > received / 2 && received - without->replaced > 600);
+  }
+
+  /// Nobody received the robot's blackboard, but its messages: a few variables, rounded, twice a
+  /// second. A robot of the other team has the same number.
+  void joinsToTheMessagesOfTheRobot() {
+    QTemporaryDir folder;
+    const std::string live = folder.filePath("live.mcap").toStdString();
+    LiveSession session(live);
+    session.addMessages("Red 1", 1, *playedBy("R1", 5, length));
+    session.addMessages("Blue 1", 1, *m_played);
+    session.finish();
+    const std::string joined = folder.filePath("joined.mcap").toStdString();
+    const auto report = joinRecording(live, m_own, joined, {});
+    QVERIFY2(report, qPrintable(message(report)));
+    QCOMPARE(report->robot, std::string("Blue 1"));
+    QVERIFY2(std::abs(report->clock.offset - plantedOffset) < 0.03, report->summary().c_str());
+    QVERIFY2(std::abs(report->clock.drift - plantedDrift) < 200e-6, report->summary().c_str());
+    QVERIFY2(report->replaced == 0 && report->summary().find("beside its messages") > 0,
+             report->summary().c_str());
+    // As in Live, the variables have the robot's name.
+    QCOMPARE(valuesOf(joined, "Blue 1").times.size(), m_played->rows.size());
+    QCOMPARE(valuesOf(joined, "Blue 1 telemetry").times, valuesOf(live, "Blue 1").times);
+    QCOMPARE(valuesOf(joined, "Red 1").times, valuesOf(live, "Red 1").times);
+    const auto made = telemetry::SessionReader::open(joined).value();
+    for (const telemetry::SessionGroup& group : made.groups()) {
+      if (group.info.name == "Blue 1") {
+        QVERIFY(isBoardGroup(group.info));
+        QCOMPARE(factsOf(group.info).uid, RobotUid{8});
+      } else if (group.info.name == "Blue 1 telemetry") {
+        QCOMPARE(factsOf(group.info).linkOf, std::string("Blue 1"));
+      }
+    }
+    // The rest of the recording can be joined to it again.
+    QVERIFY(joinRecording(joined, m_own, folder.filePath("again.mcap").toStdString(), {}));
+  }
+
+  /// What the dialog shows while somebody sets the clock by hand.
+  void tellsHowWellAClockAgrees() {
+    const auto session = telemetry::SessionReader::open(m_live).value();
+    const auto recording = RobotRecording::open(m_own).value();
+    const auto compared = compareTarget(session, recording, {});
+    QVERIFY(compared && compared->fit);
+    const RobotClock found = compared->fit->clock;
+    const ClockAgreement best = compared->comparison.agreement(found);
+    QVERIFY(best.points.size() <= ClockAgreement::maxPoints && best.points.size() > 300);
+    RobotClock off = found;
+    off.offset += 0.1;
+    const ClockAgreement later = compared->comparison.agreement(off);
+    QVERIFY2(std::abs(later.residual - 0.1) < 0.02, later.text().c_str());
+    off.offset += 100.0;
+    QVERIFY(compared->comparison.agreement(off).share() < 0.1);
+    // A wrong drift tilts the points: 1000 ppm are 180 ms in three minutes.
+    RobotClock tilted = found;
+    tilted.drift += 1e-3;
+    tilted.offset -= 1e-3 * recording.range().begin;
+    const auto points = compared->comparison.agreement(tilted).points;
+    double first = 0.0, last = 0.0;
+    const std::size_t few = points.size() / 10;
+    for (std::size_t i = 0; i < few; ++i) {
+      first += points[i].apart / static_cast<double>(few);
+      last += points[points.size() - 1 - i].apart / static_cast<double>(few);
+    }
+    QVERIFY2(std::abs(first - last - 0.16) < 0.03, qPrintable(QString::number(first - last)));
+    // It can be cancelled while it reads.
+    const auto cancelled = compareTarget(session, recording, {}, [] { return false; });
+    QVERIFY(!cancelled && cancelled.error().code == ErrorCode::Conflict);
   }
 
   void refusesAnotherMatchOrRobot_data() {
@@ -194,7 +263,7 @@ class TestJoinRecording : public QObject {
     QFETCH(QString, robot);
     QFETCH(int, seed);
     QTemporaryDir folder;
-    const auto other = playedBy(robot.toStdString(), static_cast<std::uint64_t>(seed));
+    const auto other = playedBy(robot.toStdString(), static_cast<std::uint64_t>(seed), length);
     const std::string joined = folder.filePath("joined.mcap").toStdString();
     const auto report = joinRecording(m_live, ownRecording(folder, *other, 1), joined, {});
     QVERIFY(!report);

@@ -10,7 +10,7 @@
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/recorded_frame.h>
 #include <simcore/world/published_frame.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include "../support/group_facts.h"
 #include "../support/recorded_packets.h"

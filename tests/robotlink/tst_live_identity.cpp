@@ -12,8 +12,8 @@
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_choice.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
 
 #include "../support/group_facts.h"
 #include "../support/session_values.h"

@@ -13,7 +13,7 @@
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_choice.h>
 #include <robotlink/session/session_events.h>
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/formats/text_protocol.h>
 
 #include "../support/recorded_packets.h"
 #include "frame_difference.h"

@@ -10,8 +10,8 @@
 
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/live/live_watch.h>
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/text_protocol.h>
 
 #include "../support/guide_programs.h"
 #include "../support/segment_keys.h"

@@ -13,8 +13,8 @@
 
 #include <robotlink/live/live_pipeline.h>
 #include <robotlink/live/live_watch.h>
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/series/series_store.h>
-#include <telemetry/wire/text_protocol.h>
 
 #include "../support/recorded_packets.h"
 #include "live_ports.h"

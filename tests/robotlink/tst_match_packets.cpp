@@ -13,7 +13,7 @@
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/referee.h>
 #include <simcore/world/referee_parameters.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include "../support/test_socket.h"
 

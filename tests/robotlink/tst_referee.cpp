@@ -2,7 +2,7 @@
 // The referee's machine of states: the worked match of two controllers, field by field, how halves
 // and shoot-outs end, and in which states a game begins.
 #include <simcore/rules/check_call.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include <functional>
 #include <set>

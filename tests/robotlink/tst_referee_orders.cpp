@@ -4,7 +4,7 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 #include "../support/recorded_packets.h"
 

@@ -4,11 +4,13 @@
 #include <QtTest>
 
 #include <cmath>
+#include <random>
 #include <set>
 
 #include <base/wildcard.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/cognition/naive_decision.h>
+#include <robotlink/cognition/process_registry.h>
 #include <robotlink/match/due_ticks.h>
 #include <robotlink/rerun/rerun_check.h>
 #include <robotlink/rerun/rerun_text.h>
@@ -81,6 +83,10 @@ class TestRerun : public QObject {
   void assertionsOverTheOutputs();
   void mistakesAreNamed_data();
   void mistakesAreNamed();
+  void aWholeProfileRuns();
+  void teamNeedsTeamMates();
+  void announcedCyclesRunExactly_data();
+  void announcedCyclesRunExactly();
   void aRecordingWithoutInputsIsRefused();
   void cancelling();
 
@@ -106,7 +112,8 @@ void TestRerun::unchangedCodeGivesTheSameBits_data() {
   for (const char* noise : {"none", "paper", "realistic"}) {
     for (const QStringList& processes :
          {QStringList{"decision"}, QStringList{"localization"}, QStringList{"planning"},
-          QStringList{"localization", "decision", "planning"}}) {
+          QStringList{"team"}, QStringList{"localization", "decision", "planning"},
+          QStringList{"localization", "team", "decision", "planning"}}) {
       QTest::newRow(qPrintable(QString(noise) + ' ' + processes.join('+')))
           << QString(noise) << processes;
     }
@@ -508,8 +515,9 @@ void TestRerun::mistakesAreNamed_data() {
   row("no file", "B1", "decision", "./no-such-program", {"./no-such-program"});
   row("no profile", "B1", "decision", "no-such.json", {"no-such.json"});
   row("senses", "B1", "vision", "reference", {"vision"});
-  row("messages", "B1", "team", "reference", {"messages of team-mates"});
-  row("referee", "B1", "communication", "reference", {"packets of the referee"});
+  row("referee", "B1", "communication", "reference",
+      {"packets of the referee", "communication=PROGRAM"});
+  row("no whole profile", "B1", "", "no-such.json", {"no-such.json"});
   row("no program", "B1", "decision", "", {"decision=reference"});
 }
 
@@ -524,6 +532,142 @@ void TestRerun::mistakesAreNamed() {
   QVERIFY(!result);
   const QString text = QString::fromStdString(result.error().text());
   for (const QString& part : says) QVERIFY2(text.contains(part), qPrintable(text));
+}
+
+/// What cannot run of it is named before it starts, and fed as recorded.
+void TestRerun::aWholeProfileRuns() {
+  const auto session = opened(match3v3("realistic"));
+  const RerunOptions options = optionsFor("B1", {rerunProcessFromText("reference").value()});
+  const auto plan = planRerun(session, options);
+  QVERIFY2(plan, plan ? "" : plan.error().text().c_str());
+  const Processes expected{ours("localization"), ours("team"), ours("decision"), ours("planning")};
+  QCOMPARE(plan->processes, expected);
+  QCOMPARE(plan->recorded, expected);
+  QCOMPARE(plan->notes.size(), std::size_t(1));
+  QVERIFY2(plan->notes[0].starts_with("communication also gets packets of the referee") &&
+               plan->notes[0].ends_with("fed as recorded."),
+           plan->notes[0].c_str());
+  const auto result = rerun(session, options);
+  QVERIFY2(result && result->unequal() == 0, result ? qPrintable(shown(*result)) : "");
+  QCOMPARE(result->processes, expected);
+  QVERIFY(variable(*result, "COM_POS_ROBOT1").compared > 2000);
+  QVERIFY(!rerunProcessFromText("nothing"));
+  QCOMPARE(rerunProcessFromText("team.json:side=left").value(),
+           (RerunProcess{"", "team.json:side=left"}));
+  QCOMPARE(rerunProcessFromText("decision=team.json:side=left").value(),
+           (RerunProcess{"decision", "team.json:side=left"}));
+}
+
+/// Their messages are made again from their blackboards.
+void TestRerun::teamNeedsTeamMates() {
+  const auto session = opened(record(m_folder, "alone", {scenarioWith("one-robot", "none"), 3.0}));
+  const auto result = rerun(session, optionsFor("B1", {ours("team")}));
+  QVERIFY(!result && result.error().code == ErrorCode::Unsupported);
+  QVERIFY2(result.error().text().find("no blackboard of a team-mate") != std::string::npos,
+           result.error().text().c_str());
+}
+
+/// A robot announced its cycles, which came irregularly, while its inputs changed all the time,
+/// also within cycles. Its decision process remembers, so that one wrong input or moment changes
+/// the rest.
+void TestRerun::announcedCyclesRunExactly_data() {
+  QTest::addColumn<bool>("announced");
+  QTest::newRow("announced") << true;
+  QTest::newRow("only sampled") << false;
+}
+
+void TestRerun::announcedCyclesRunExactly() {
+  QFETCH(bool, announced);
+  const VariableCatalog& map = VariableCatalog::published();
+  telemetry::GroupInfo group{"B1", {}};
+  for (const Variable& variable : map.variables()) {
+    group.columns.emplace_back();
+    group.columns.back().name = variable.name;
+    group.columns.back().type = variable.type == VariableType::Int ? telemetry::ColumnType::Int32
+                                                                   : telemetry::ColumnType::Float32;
+  }
+  const std::size_t ints = static_cast<std::size_t>(
+      std::ranges::count(map.variables(), VariableType::Int, &Variable::type));
+  if (announced) {
+    telemetry::ColumnInfo cycle;
+    cycle.name = "DECISION_CYCLE";
+    cycle.type = telemetry::ColumnType::Int32;
+    group.columns.insert(group.columns.begin() + static_cast<std::ptrdiff_t>(ints), cycle);
+  }
+  group.robot.emplace();
+  group.robot->slot = group.robot->number = 1;
+  group.robot->behaviour = "striker";
+  group.robot->sentFrom = "10.0.0.3";
+  const std::string path = m_folder.filePath(announced ? "cycles" : "sampled").toStdString();
+  telemetry::SessionWriterOptions writing;
+  writing.waitWhenFull = true;
+  auto writer = telemetry::SessionWriter::create(path, {}, writing).value();
+  const auto id = writer->addGroup(group);
+  Blackboard board = Blackboard::onHeap();
+  ProcessOptions options;
+  options.robot = RobotId{1};
+  auto decision = findProcess("decision")->make(options).value();
+  std::mt19937 random(3);
+  const auto between = [&random](int low, int high) {
+    return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+  };
+  const auto write = [&](double time, int cycle) {
+    std::vector<std::uint32_t> words;
+    for (const Variable& variable : map.variables()) {
+      const bool isInt = variable.type == VariableType::Int;
+      if (announced && !isInt && words.size() == ints) {
+        words.push_back(static_cast<std::uint32_t>(cycle));
+      }
+      words.push_back(std::bit_cast<std::uint32_t>(
+          board.read(IntVar{variable.index + (isInt ? 0 : Blackboard::floatOffset)})));
+    }
+    writer->append(id, {time, words, {}});
+  };
+  const RobotVariables v(map);
+  const auto sense = [&] {
+    board.write(v.visionLost, between(0, 3) == 0 ? 1 : 0);
+    board.write(v.visionBallDist, static_cast<float>(between(10, 300)));
+    board.write(v.visionPanDeg, static_cast<float>(between(-90, 90)));
+    board.write(v.localizationX, between(0, 900));
+    board.write(v.localizationY, between(0, 600));
+    board.write(v.localizationTheta, between(0, 359));
+    board.write(v.localizationBelief, 10.0F);
+  };
+  board.write(*map.intVar("COM_REFEREE"), 2);
+  sense();
+  double time = 0.0;
+  write(time, 0);
+  for (int n = 1; n <= 300; ++n) {
+    for (int i = between(1, 4); i > 0; --i) {
+      time += 0.001 * between(2, 9);
+      sense();
+      write(time, n == 1 ? 0 : 1 - n);
+    }
+    time += 0.001 * between(1, 5);
+    write(time, n);
+    decision->step(board, Clock{time});
+    time += 0.001 * between(1, 5);
+    if (between(0, 1) == 0) board.write(v.visionPanDeg, static_cast<float>(between(-90, 90)));
+    write(time, -n);
+  }
+  QVERIFY(writer->finish());
+  const auto session = opened(path);
+  const auto plan = planRerun(session, optionsFor("B1", {ours("decision")}));
+  QVERIFY2(plan, plan ? "" : plan.error().text().c_str());
+  const auto result = rerun(session, optionsFor("B1", {ours("decision")}));
+  QVERIFY2(result, result ? "" : result.error().text().c_str());
+  if (!announced) {
+    QVERIFY(result->unequal() > 0 && result->isTooCoarse());
+    return;
+  }
+  QVERIFY2(std::ranges::any_of(plan->notes,
+                               [](const std::string& note) {
+                                 return note.starts_with("Every cycle of decision was recorded");
+                               }),
+           plan->notes.empty() ? "no notes" : plan->notes[0].c_str());
+  QVERIFY2(result->unequal() == 0, qPrintable(shown(*result)));
+  QVERIFY(variable(*result, "DECISION_STATE").compared > 300);
+  QVERIFY(!result->isTooCoarse());
 }
 
 void TestRerun::aRecordingWithoutInputsIsRefused() {

@@ -3,14 +3,19 @@
 // that does not is compared over time, and what goes wrong is said.
 #include <QtTest>
 
+#include <netinet/in.h>
 #include <sys/shm.h>
+#include <sys/socket.h>
 #include <cmath>
 #include <set>
 #include <thread>
 
+#include <base/unique_fd.h>
 #include <robotlink/blackboard/system_v.h>
+#include <robotlink/rerun/program_watch.h>
 #include <robotlink/rerun/rerun_text.h>
 #include <robotlink/session/row_slot.h>
+#include <telemetry/session/session_writer.h>
 
 #include "../support/own_match_number.h"
 #include "rerun_rig.h"
@@ -24,6 +29,20 @@ namespace {
 
 constexpr const char* robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
 
+/// A UDP port that nobody has.
+std::uint16_t unusedPort() {
+  const UniqueFd socket(::socket(AF_INET, SOCK_DGRAM, 0));
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  socklen_t size = sizeof here;
+  auto* const address = reinterpret_cast<sockaddr*>(&here);
+  if (::bind(socket.get(), address, size) != 0 ||
+      ::getsockname(socket.get(), address, &size) != 0) {
+    qFatal("no port");
+  }
+  return ntohs(here.sin_port);
+}
+
 QByteArray exampleText(const char* name) {
   QFile file(QString(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/") + name);
   if (!file.open(QIODevice::ReadOnly)) qFatal("there is no %s", name);
@@ -35,6 +54,7 @@ QByteArray exampleText(const char* name) {
 class TestRerunPrograms : public QObject {
   Q_OBJECT
   QTemporaryDir m_folder;
+  std::uint16_t m_port = 0;
 
   std::string write(const QString& name, const QByteArray& text) const {
     QFile file(m_folder.filePath(name));
@@ -70,6 +90,39 @@ class TestRerunPrograms : public QObject {
     RerunOptions options = optionsFor("B1", {{"decision", program}});
     options.robotProgram = robotProgram;
     return options;
+  }
+
+  /// A live robot whose communication sets COM_REFEREE to what a datagram says.
+  std::string recordReferee(const char* name, bool withDatagrams) const {
+    const std::string path = m_folder.filePath(name).toStdString();
+    telemetry::SessionWriterOptions writing;
+    writing.waitWhenFull = true;
+    auto writer = telemetry::SessionWriter::create(path, {}, writing).value();
+    telemetry::GroupInfo group{"B1", {}};
+    for (const char* variable : {"COM_REFEREE", "VISION_LOST"}) {
+      group.columns.emplace_back();
+      group.columns.back().name = variable;
+      group.columns.back().type = telemetry::ColumnType::Int32;
+    }
+    group.robot.emplace();
+    group.robot->slot = group.robot->number = 1;
+    group.robot->sentFrom = "10.0.0.3";
+    const auto id = writer->addGroup(group);
+    const auto send = [&](double time, const char* from, const char* payload) {
+      telemetry::SessionDatagram datagram{
+          time, {telemetry::parseAddress(from).value(), 4000}, m_port, payload};
+      writer->append(telemetry::SessionStream::RefereeRaw, datagram);
+    };
+    for (int i = 0; i <= 120; ++i) {  // six seconds
+      const double time = 0.05 * i;
+      const std::uint32_t state = time < 1.0 ? 0 : time < 3.0 ? 5 : 7;
+      if (withDatagrams && i == 20) send(time, "10.0.0.9", "5");
+      if (withDatagrams && i == 40) send(time, "10.0.0.3", "9");  // its own comes not back
+      if (withDatagrams && i == 60) send(time, "10.0.0.9", "7");
+      writer->append(id, {time, std::array<std::uint32_t, 2>{state, 0}, {}});
+    }
+    if (!writer->finish()) qFatal("not written");
+    return path;
   }
 
  private slots:
@@ -139,6 +192,85 @@ class TestRerunPrograms : public QObject {
     QCOMPARE(result->slack, 0.5);
     // The same rule: the same actions, at nearly the same time.
     QVERIFY2(!variable(*result, "DECISION_ACTION_A").differs(), qPrintable(shown(*result)));
+  }
+
+  /// One of them cooperates, and the match waits for it alone.
+  void allProgramsOfAProfileRunAtOnce() {
+    const std::string program = write("decide.py", exampleText("ball_robot.py"));
+    const auto session = opened(recordWith(program, "none"));
+    const int word = VariableCatalog::published().find("LOCALIZATION_X")->index;
+    const std::string locator = write("locate.py", R"(
+import ctypes, sys, time
+libc = ctypes.CDLL(None)
+libc.shmat.restype = ctypes.c_void_p
+address = libc.shmat(libc.shmget(int(sys.argv[1]), 2048, 0), None, 0)
+ints = (ctypes.c_int * 512).from_address(address)
+while True:
+    ints[)" + QByteArray::number(word) + R"(] = 123  # LOCALIZATION_X
+    time.sleep(0.005)
+)");
+    const std::string profile =
+        write("both.json", R"({"version": 1, "name": "both", "cycle": "MATCH_CYCLE", "processes": [
+             {"name": "localization", "command": ["python3", ")" +
+                               QByteArray::fromStdString(locator) + R"(", "${key}"]},
+             {"name": "decision", "command": ["python3", ")" +
+                               QByteArray::fromStdString(program) + R"(", "${key}"]}]})");
+    RerunOptions options = optionsFor("B1", {rerunProcessFromText(profile).value()});
+    options.robotProgram = robotProgram;
+    options.speed = 10.0;
+    const auto result = rerun(session, options);
+    QVERIFY2(result, result ? "" : result.error().text().c_str());
+    QCOMPARE(result->processes.size(), std::size_t(2));
+    // One does not cooperate, so that all is compared over time.
+    QVERIFY(!result->inLockStep && result->slack >= 0.5);
+    QVERIFY2(!variable(*result, "DECISION_ACTION_A").differs(), qPrintable(shown(*result)));
+    const ComparedVariable& x = variable(*result, "LOCALIZATION_X");
+    QVERIFY2(x.differs() && x.stretches.front().rerun == 123.0, qPrintable(shown(*result)));
+    QVERIFY(!programFiles(options.processes).empty());
+  }
+
+  void messagesThatArrivedAreSentAgainAtTheirTimes() {
+    m_port = unusedPort();
+    const std::string program = write("hear.py", R"(
+import ctypes, socket, sys, time
+port = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+port.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+port.bind(("", )" + QByteArray::number(m_port) + R"())
+port.setblocking(False)
+libc = ctypes.CDLL(None)
+libc.shmat.restype = ctypes.c_void_p
+address = libc.shmat(libc.shmget(int(sys.argv[1]), 2048, 0), None, 0)
+ints = (ctypes.c_int * 512).from_address(address)
+while True:
+    try:
+        ints[51] = int(port.recv(100))  # COM_REFEREE
+    except BlockingIOError:
+        time.sleep(0.005)
+)");
+    RerunOptions options = optionsFor("B1", {{"communication", program}});
+    options.robotProgram = robotProgram;
+    options.speed = 2.0;
+    options.from = 0.2;
+    const auto heard = rerun(opened(recordReferee("heard.mcap", true)), options);
+    QVERIFY2(heard, heard ? "" : heard.error().text().c_str());
+    QVERIFY2(!variable(*heard, "COM_REFEREE").differs(), qPrintable(shown(*heard)));
+    QVERIFY2(std::ranges::none_of(heard->notes,
+                                  [](const std::string& note) {
+                                    return note.find("datagrams") != std::string::npos;
+                                  }),
+             qPrintable(shown(*heard)));
+    // Without any it hears nothing, and that is known before it starts.
+    const auto session = opened(recordReferee("deaf.mcap", false));
+    const auto plan = planRerun(session, options);
+    QVERIFY2(plan, plan ? "" : plan.error().text().c_str());
+    QVERIFY2(std::ranges::any_of(plan->notes,
+                                 [](const std::string& note) {
+                                   return note.starts_with("The recording has no datagrams");
+                                 }),
+             plan->notes.empty() ? "nothing" : plan->notes[0].c_str());
+    const auto deaf = rerun(session, options);
+    QVERIFY2(deaf && variable(*deaf, "COM_REFEREE").differs(),
+             deaf ? qPrintable(shown(*deaf)) : "");
   }
 
   void aProgramThatDiesIsNamedWithItsLastWords() {

@@ -3,13 +3,16 @@
 #include <QtTest>
 
 #include <cmath>
+#include <map>
 
 #include <robotlink/match/followed_recording.h>
+#include <robotlink/match/match_player.h>
 #include <robotlink/session/follow_recording.h>
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/moment_reader.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+#include <simcore/world/published_frame.h>
 
 namespace tst_what_if {
 
@@ -85,6 +88,12 @@ struct Recorded {
   sim::Score score;
   std::optional<telemetry::SessionReader> session;
 };
+
+QByteArray exampleText(const char* name) {
+  QFile file(QString(PITCHBOARD_SOURCE_DIR "/tests/end_to_end/") + name);
+  if (!file.open(QIODevice::ReadOnly)) qFatal("there is no %s", name);
+  return file.readAll();
+}
 
 std::vector<MatchEvent> letGoOf(SimulatedMatch& match) {
   std::vector<MatchEvent> events;
@@ -196,6 +205,81 @@ class TestWhatIf : public QObject {
     for (int i = 0; i < 300; ++i) match.tick();
     QVERIFY(*match.simulation().robotPose(RobotId{1}) != begin);
     QVERIFY(letGoOf(match).empty());
+  }
+
+  /// Its processes ran all the time on motions that they did not command. From the moment of
+  /// letting go they play: told where the robot stands, without being started again. A program of
+  /// the team goes on, too.
+  void separateProcessesPlayFromWhereTheirRobotWasLetGo() {
+    const Recorded recorded(rollingScenario(), 180);
+    Scenario scenario = recorded.scenario;
+    scenario.robots[0].behaviour = "striker";
+    const QString program = recorded.folder.filePath("own.py");
+    QFile file(program);
+    QVERIFY(file.open(QIODevice::WriteOnly));
+    file.write(exampleText("ball_robot.py"));
+    file.close();
+    QFile profile(recorded.folder.filePath("team.json"));
+    QVERIFY(profile.open(QIODevice::WriteOnly));
+    profile.write(R"({"version": 1, "name": "team", "cycle": "MATCH_CYCLE", "processes": [
+      {"name": "localization", "reference": "localization"},
+      {"name": "decision", "command": ["python3", ")" +
+                  program.toUtf8() + R"(", "${key}"]}]})");
+    profile.close();
+    for (const bool own : {false, true}) {
+      MatchOptions options;
+      options.cognition = Cognition::Separate;
+      options.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+      options.newBoards = true;
+      scenario.robots[0].runtime.profile = own ? profile.fileName().toStdString() : std::string();
+      auto made = SimulatedMatch::create(scenario, options);
+      QVERIFY2(made, made ? "" : made.error().text().c_str());
+      MatchPlayer player(std::move(*made));
+      SimulatedMatch& match = player.match();
+      const auto await = [&] {
+        const auto now = MatchPlayer::Clock::now();
+        player.lookAfterProcesses(now);
+        return !match.pace().awaitsPrograms(ProcessPace::Await::AllPrograms, now);
+      };
+      QTRY_VERIFY_WITH_TIMEOUT(await(), 30'000);
+      // It is moved 3 m away from where it began, in small steps that it did not command.
+      const auto following = recorded.follow({"ball", "blue"});
+      for (FollowedRobot& robot : following->robots) {
+        for (FollowedPose& pose : robot.track.poses) {
+          pose.pose.position.x += std::min(3.0, 2.0 * pose.time);
+        }
+      }
+      following->end = 2.0;
+      match.follow(following);
+      std::map<std::string, int> pids;
+      const auto pidsNow = [&] {
+        std::map<std::string, int> all;
+        for (const ProcessStatus& status : match.robots().processes().statuses()) {
+          all[status.name] = status.pid;
+        }
+        return all;
+      };
+      while (match.followState().follows) {
+        player.tick();
+        if (pids.empty()) pids = pidsNow();
+      }
+      QVERIFY2(pids.size() >= 2, qPrintable(QString::number(pids.size())));
+      for (const auto& [name, pid] : pids) QVERIFY2(pid > 0, name.c_str());
+      const auto apart = [&] {  // m, of what it believes
+        const Pose truth = *match.simulation().robotPose(RobotId{1});
+        const Blackboard& board = *match.blackboard(RobotId{1});
+        const Pose belief = sim::published_frame::studioFromLocalization(
+            scenario.settings.field, {double(board.read(match.variables().localizationX)),
+                                      double(board.read(match.variables().localizationY)), 0.0});
+        return distance(truth.position, belief.position);
+      };
+      const Pose begin = *match.simulation().robotPose(RobotId{1});
+      for (int i = 0; i < 12; ++i) player.tick();
+      QVERIFY2(apart() < 0.15, qPrintable(QString::number(apart())));
+      for (int i = 0; i < 300; ++i) player.tick();
+      QVERIFY(*match.simulation().robotPose(RobotId{1}) != begin);
+      QVERIFY(pidsNow() == pids);
+    }
   }
 
   /// Who stands where it was recorded has changed nothing, however near it is.

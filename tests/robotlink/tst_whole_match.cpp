@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 #include "../support/segment_keys.h"
 #include "../support/test_socket.h"

@@ -3,7 +3,7 @@
 
 // Messages of robots as the monitor of a team takes them.
 
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/monitor/team_monitor.h>
 
 namespace monitor_rig {
 

@@ -3,8 +3,8 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/drawing_store.h>
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/drawings/drawing_store.h>
+#include <telemetry/formats/text_protocol.h>
 
 namespace tst_drawing_text {
 

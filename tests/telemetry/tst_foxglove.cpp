@@ -10,8 +10,8 @@
 
 #include <atomic>
 
+#include <base/base64.h>
 #include <telemetry/foxglove/foxglove_client.h>
-#include <telemetry/wire/base64.h>
 
 #include "../support/websocket_server.h"
 

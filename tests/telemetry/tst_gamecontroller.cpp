@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packets recorded from real controllers, and every size that they can be cut to.
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include <telemetry/wire/referee_json.h>
+#include <telemetry/referee/referee_json.h>
 
 #include "../support/recorded_packets.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Packets recorded from real controllers come back byte for byte when they are decoded and written
 // again; bytes that no field describes are the messages of coaches and are named here.
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include <QtTest>
 

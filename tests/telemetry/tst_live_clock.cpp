@@ -3,7 +3,7 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/live_clock.h>
+#include <telemetry/sockets/live_clock.h>
 
 namespace tst_live_clock {
 

@@ -3,7 +3,7 @@
 // a field of 9 by 6 metres.
 #include <QtTest>
 
-#include <telemetry/wire/text_decoder.h>
+#include <telemetry/formats/text_decoder.h>
 
 namespace tst_message_frames {
 

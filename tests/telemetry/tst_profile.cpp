@@ -2,8 +2,8 @@
 #include <QTemporaryDir>
 #include <QtTest>
 
-#include <telemetry/wire/profile.h>
-#include <telemetry/wire/text_decoder.h>
+#include <telemetry/formats/profile.h>
+#include <telemetry/formats/text_decoder.h>
 
 namespace tst_profile {
 

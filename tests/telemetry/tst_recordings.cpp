@@ -13,11 +13,11 @@
 #include <fstream>
 #include <map>
 
+#include <base/base64.h>
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/recordings/recording.h>
-#include <telemetry/wire/base64.h>
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include "../support/recorded_messages.h"
 
@@ -68,6 +68,38 @@ std::string joined(const std::vector<std::string>& lines) {
 bool hasNote(const Contents& contents, const char* part) {
   return joined(contents.notes).find(part) != std::string::npos;
 }
+
+/// Bytes of CDR, little-endian, version 1. Positions are aligned from behind the head.
+class Cdr {
+ public:
+  explicit Cdr(char code = 1) : m_bytes({'\0', code, '\0', '\0'}) {}
+  template <class T>
+  Cdr& put(T value) {
+    while ((m_bytes.size() - 4) % sizeof(T) != 0) m_bytes += '\0';
+    char bytes[sizeof(T)];
+    std::memcpy(bytes, &value, sizeof(T));
+    m_bytes.append(bytes, sizeof(T));
+    return *this;
+  }
+  Cdr& text(const std::string& text) {
+    put(static_cast<std::uint32_t>(text.size() + 1));
+    m_bytes += text + '\0';
+    return *this;
+  }
+  /// A member with its number in front; `value` is aligned by itself.
+  Cdr& member(std::uint16_t id, const Cdr& value) {
+    const std::string bytes = value.m_bytes.substr(4);
+    put(std::uint32_t{0});
+    m_bytes.resize(m_bytes.size() - 4);
+    put(id).put(static_cast<std::uint16_t>(bytes.size()));
+    m_bytes += bytes;
+    return *this;
+  }
+  const std::string& bytes() const { return m_bytes; }
+
+ private:
+  std::string m_bytes;
+};
 
 /// A file of messages that our own writer makes.
 struct OwnMessage {
@@ -291,6 +323,183 @@ class TestRecordings : public QObject {
           "/code (a/B): 1 message does not match"}) {
       QVERIFY2(hasNote(got, part), (std::string(part) + "\n" + joined(got.notes)).c_str());
     }
+  }
+
+  /// Messages that are laid out as one before take a shorter way. They must not differ from others,
+  /// whatever changes: lengths, names, texts, flags that are none.
+  void messagesOfOneLayout() {
+    const std::string schema =
+        "int16 id\nstring[] name\nfloat64[] position\nbool on\nuint8 small\nfloat32[3] v\n"
+        "string text\nbuiltin_interfaces/Time stamp\nPart[] parts\n" +
+        std::string(80, '=') + "\nMSG: a/Part\nstring name\nint64 value\n" + std::string(80, '=') +
+        "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n";
+    struct One {
+      std::vector<std::string> names{"hip", "knee"};
+      int flag = 1;
+      std::string text = "walk";
+      std::vector<std::string> parts{"left"};
+    };
+    std::vector<OwnMessage> messages;
+    std::vector<std::map<std::string, std::string>> wanted;
+    const auto add = [&](const One& one) {
+      const int i = static_cast<int>(messages.size());
+      std::map<std::string, std::string> values{{"id", shown(-i)},
+                                                {"on", shown(one.flag)},
+                                                {"small", shown(i)},
+                                                {"text", one.text},
+                                                {"stamp", shown(i + 0.25)}};
+      Cdr cdr;
+      cdr.put(static_cast<std::int16_t>(-i)).put(static_cast<std::uint32_t>(one.names.size()));
+      for (const std::string& name : one.names) cdr.text(name);
+      cdr.put(static_cast<std::uint32_t>(one.names.size()));
+      for (std::size_t n = 0; n < one.names.size(); ++n) {
+        cdr.put(i + static_cast<double>(n) / 4);
+        values["position[" + one.names[n] + "]"] = shown(i + static_cast<double>(n) / 4);
+      }
+      cdr.put(static_cast<std::uint8_t>(one.flag)).put(static_cast<std::uint8_t>(i));
+      for (int v = 0; v < 3; ++v) {
+        cdr.put(static_cast<float>(i + v));
+        values["v[" + std::to_string(v) + "]"] = shown(i + v);
+      }
+      cdr.text(one.text).put(std::int32_t{i}).put(std::uint32_t{250'000'000});
+      cdr.put(static_cast<std::uint32_t>(one.parts.size()));
+      for (const std::string& part : one.parts) {
+        cdr.text(part).put(std::int64_t{i} * -7);
+        values["parts[" + part + "].name"] = part;
+        values["parts[" + part + "].value"] = shown(i * -7);
+      }
+      messages.push_back({"/b", "a/B", "cdr", "ros2msg", schema, cdr.bytes()});
+      if (one.flag <= 1) wanted.push_back(values);
+    };
+    for (int i = 0; i < 20; ++i) {
+      add({});
+      add({.flag = 0, .text = "kick"});
+      if (i % 2 == 0) add({.names = {"hip", "foot"}});  // another name, as long as before
+      if (i % 3 == 0) add({.parts = {"leg", "foot"}});
+      if (i % 4 == 0) add({.text = std::to_string(i) + " steps"});
+      if (i % 5 == 0) add({.flag = 2});
+      if (i % 5 == 1) add({.parts = {"arms"}});  // a name of the element that is as long
+    }
+    const Contents got = read({writeOwn(m_folder, "layout.mcap", messages)});
+    QVERIFY2(hasNote(got, "/b (a/B): 4 messages do not match"), joined(got.notes).c_str());
+    QCOMPARE(got.messages.size(), wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      const auto& values = got.messages[i].values;
+      if (values != std::map<std::string, std::string>(wanted[i])) {
+        for (const auto& [path, value] : wanted[i]) {
+          const auto found = values.find(path);
+          QVERIFY2(found != values.end(), (std::to_string(i) + " has no " + path).c_str());
+          QCOMPARE(found->second, value);
+        }
+        QCOMPARE(values.size(), wanted[i].size());
+      }
+      QCOMPARE(got.messages[i].stamp.has_value(), true);
+    }
+  }
+
+  /// XCDR1 writes mutable types as members with numbers, in any order, and with others between.
+  void parameterLists() {
+    const std::string schema =
+        "module a { @mutable struct Inner { @id(2) short u; @id(9) double w; };\n"
+        "@mutable struct B { @id(1) long count; @id(5) double x; @id(7) string word;\n"
+        "  @id(8) Inner inner; @id(300) sequence<float> list; };\n"
+        "@final struct C { octet first; Inner inner; octet last; }; };\n";
+    constexpr std::uint16_t endOfList = 0x3F02, extended = 0x3F01, mustUnderstand = 0x4000;
+    Cdr inner;
+    inner.member(9, Cdr().put(2.5)).member(2, Cdr().put(std::int16_t{-3}));
+    inner.member(endOfList, Cdr());
+    Cdr whole(3);
+    whole.member(5 | mustUnderstand, Cdr().put(1.25));
+    whole.member(77, Cdr().put(std::uint32_t{99}));  // of a later version
+    whole.member(7, Cdr().text("kick")).member(8, inner);
+    whole.member(extended, Cdr().put(std::uint32_t{300}).put(std::uint32_t{12}));
+    whole.put(std::uint32_t{2}).put(0.5F).put(1.5F);
+    whole.member(1, Cdr().put(std::int32_t{42})).member(endOfList, Cdr());
+    Cdr part(3);  // what is missing is left out
+    part.member(1, Cdr().put(std::int32_t{43})).member(endOfList, Cdr());
+    Cdr cut(3);
+    cut.member(1, Cdr().put(std::int32_t{44}));
+    Cdr nested;
+    nested.put(std::uint8_t{5});
+    nested.member(9, Cdr().put(7.5)).member(2, Cdr().put(std::int16_t{8}));
+    nested.member(endOfList, Cdr()).put(std::uint8_t{6});
+    const auto message = [&](const char* topic, const char* type, const Cdr& cdr) {
+      return OwnMessage{topic, type, "cdr", "omgidl", schema, cdr.bytes()};
+    };
+    const Contents got =
+        read({writeOwn(m_folder, "parameters.mcap",
+                       {message("/b", "a::B", whole), message("/b", "a::B", part),
+                        message("/b", "a::B", cut), message("/c", "a::C", nested)})});
+    QVERIFY2(hasNote(got, "/b (a::B): 1 message does not match"), joined(got.notes).c_str());
+    QCOMPARE(got.messages.size(), std::size_t{3});
+    const std::map<std::string, std::string> wanted{
+        {"count", shown(42)},   {"x", shown(1.25)},      {"word", "kick"},
+        {"inner.u", shown(-3)}, {"inner.w", shown(2.5)}, {"list[0]", shown(0.5)},
+        {"list[1]", shown(1.5)}};
+    QCOMPARE(got.messages[0].values, wanted);
+    QCOMPARE(got.messages[1].values, (std::map<std::string, std::string>{{"count", shown(43)}}));
+    QCOMPARE(got.messages[2].values, (std::map<std::string, std::string>{{"first", shown(5)},
+                                                                         {"inner.u", shown(8)},
+                                                                         {"inner.w", shown(7.5)},
+                                                                         {"last", shown(6)}}));
+  }
+
+  /// A union has the field that its discriminator chooses, or none.
+  void unions() {
+    const std::string schema =
+        "module a { const short many = 12;\n"
+        "enum Kind { NONE, BALL, @value(7) GOAL };\n"
+        "union Seen switch (Kind) { case BALL: double distance; case GOAL: case a::NONE: long "
+        "posts;"
+        " };\n"
+        "union Size switch (short) { case many: case -2: sequence<octet> list; default: string "
+        "word;"
+        " };\n"
+        "union Mark switch (char) { case 'x': short x; case 'y': float y; };\n"
+        "@final struct B { Seen seen; Size size; Mark mark; boolean end; }; };\n";
+    const auto message = [&](const Cdr& cdr) {
+      return OwnMessage{"/b", "a::B", "cdr", "omgidl", schema, cdr.bytes()};
+    };
+    Cdr first, second, third;
+    first.put(std::int32_t{1}).put(2.5).put(std::int16_t{12}).put(std::uint32_t{2});
+    first.put(std::uint8_t{3}).put(std::uint8_t{4}).put('y').put(0.5F).put(std::uint8_t{1});
+    second.put(std::int32_t{7}).put(std::int32_t{-4}).put(std::int16_t{5}).text("big");
+    second.put('x').put(std::int16_t{9}).put(std::uint8_t{0});
+    third.put(std::int32_t{3}).put(std::int16_t{-2}).put(std::uint32_t{0});
+    third.put('z').put(std::uint8_t{1});
+    const Contents got = read({writeOwn(
+        m_folder, "unions.mcap",
+        {message(first),
+         message(second),
+         message(third),
+         {"/m", "a::M", "cdr", "omgidl",
+          "module a { @mutable union M switch (long) { case 1: long x; }; };", third.bytes()}})});
+    QVERIFY2(hasNote(got, "The union \"a::M\" is mutable"), joined(got.notes).c_str());
+    QCOMPARE(got.notes.size(), std::size_t{1});
+    QCOMPARE(got.messages.size(), std::size_t{3});
+    QCOMPARE(got.messages[0].values,
+             (std::map<std::string, std::string>{{"seen.discriminator", shown(1)},
+                                                 {"seen.distance", shown(2.5)},
+                                                 {"size.discriminator", shown(12)},
+                                                 {"size.list[0]", shown(3)},
+                                                 {"size.list[1]", shown(4)},
+                                                 {"mark.discriminator", shown('y')},
+                                                 {"mark.y", shown(0.5)},
+                                                 {"end", shown(1)}}));
+    QCOMPARE(got.messages[1].values,
+             (std::map<std::string, std::string>{{"seen.discriminator", shown(7)},
+                                                 {"seen.posts", shown(-4)},
+                                                 {"size.discriminator", shown(5)},
+                                                 {"size.word", "big"},
+                                                 {"mark.discriminator", shown('x')},
+                                                 {"mark.x", shown(9)},
+                                                 {"end", shown(0)}}));
+    QCOMPARE(got.messages[2].values,
+             (std::map<std::string, std::string>{{"seen.discriminator", shown(3)},
+                                                 {"size.discriminator", shown(-2)},
+                                                 {"mark.discriminator", shown('z')},
+                                                 {"end", shown(1)}}));
+    QCOMPARE(got.fields.at("/b seen.discriminator").labels.at(7), std::string("GOAL"));
   }
 
   /// Arrays of arrays of empty things have no bytes, and must not take time.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/referee/referee_tracker.h>
 
 #include <QtTest>
 #include <map>

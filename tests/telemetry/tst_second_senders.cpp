@@ -3,7 +3,7 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/monitor/team_monitor.h>
 
 #include "monitor_rig.h"
 

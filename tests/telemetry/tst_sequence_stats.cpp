@@ -3,7 +3,7 @@
 
 #include <QtTest>
 
-#include <telemetry/wire/sequence_stats.h>
+#include <telemetry/monitor/sequence_stats.h>
 
 namespace tst_sequence_stats {
 

@@ -14,8 +14,8 @@
 #include <random>
 #include <set>
 
-#include <telemetry/wire/meanings.h>
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/formats/meanings.h>
+#include <telemetry/monitor/team_monitor.h>
 
 namespace tst_team_formats {
 
@@ -200,10 +200,11 @@ class TestTeamFormats : public QObject {
     QTemporaryDir folder;
     QProcess python;
     // The distribution's own: its package has Google's protobuf.
-    python.start(QStringLiteral("/usr/bin/python3"),
-                 {QStringLiteral(PITCHBOARD_TEST_DATA "/team_message_writer.py"),
-                  QStringLiteral(PITCHBOARD_SOURCE_DIR "/telemetry/wire/proto/team_messages.proto"),
-                  folder.path(), QStringLiteral("13")});
+    python.start(
+        QStringLiteral("/usr/bin/python3"),
+        {QStringLiteral(PITCHBOARD_TEST_DATA "/team_message_writer.py"),
+         QStringLiteral(PITCHBOARD_SOURCE_DIR "/telemetry/formats/proto/team_messages.proto"),
+         folder.path(), QStringLiteral("13")});
     QVERIFY(python.waitForFinished(60000));
     QVERIFY2(python.exitCode() == 0, python.readAllStandardError().constData());
     const QJsonArray messages = messagesIn(python.readAllStandardOutput());

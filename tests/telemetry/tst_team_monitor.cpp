@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/monitor/team_monitor.h>
 
 #include "monitor_rig.h"
 

@@ -4,8 +4,8 @@
 #include <clocale>
 #include <random>
 
-#include <telemetry/wire/text_decoder.h>
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/formats/text_decoder.h>
+#include <telemetry/formats/text_protocol.h>
 
 #include "../support/allocation_counter.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/formats/text_protocol.h>
 
 #include <QFile>
 #include <QProcess>

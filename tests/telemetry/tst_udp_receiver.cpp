@@ -6,9 +6,9 @@
 #include <set>
 #include <thread>
 
-#include <telemetry/wire/monitor_request.h>
-#include <telemetry/wire/udp_receiver.h>
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/monitor/monitor_request.h>
+#include <telemetry/sockets/udp_receiver.h>
+#include <telemetry/sockets/udp_sender.h>
 
 #include "../support/test_socket.h"
 
@@ -243,11 +243,13 @@ class TestUdpReceiver : public QObject {
     QVERIFY(!referee.received());
   }
 
-  /// What cannot be called cannot happen by mistake: of the library's objects only the sender knows
-  /// a function of the system that sends, and only the monitor request knows the sender.
+  /// What cannot be called cannot happen by mistake: of the objects of these modules only the
+  /// sender knows a function of the system that sends, and only the monitor request knows the
+  /// sender.
   void onlyTheMonitorRequestCanSend() {
     QProcess nm;
-    nm.start("nm", {"-u", "-A", "-C", QStringLiteral(PITCHBOARD_TELEMETRY_LIBRARY)});
+    nm.start("nm", QStringList{"-u", "-A", "-C"} +
+                       QStringLiteral(PITCHBOARD_TELEMETRY_LIBRARIES).split('|'));
     if (!nm.waitForStarted()) QSKIP("nm is not installed");
     QVERIFY(nm.waitForFinished());
     static const QRegularExpression sends(R"(\b(send|sendto|sendmsg|sendmmsg|connect)(@.*)?$)");

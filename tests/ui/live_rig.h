@@ -11,7 +11,7 @@
 #include <string>
 
 #include <robotlink/live/live_watch.h>
-#include <telemetry/wire/text_protocol.h>
+#include <telemetry/formats/text_protocol.h>
 
 #include "../support/test_socket.h"
 

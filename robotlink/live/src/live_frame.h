@@ -5,7 +5,7 @@
 
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/live/live_options.h>
-#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/referee/referee_tracker.h>
 
 namespace pitchboard::link {
 

@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <base/base64.h>
+#include <base/lenient_json.h>
 #include <base/option_json.h>
 #include <robotlink/live/live_teams.h>
-#include <telemetry/wire/base64.h>
-#include <telemetry/wire/lenient_json.h>
 
 #include "live_frame.h"
 
@@ -20,7 +20,7 @@ using telemetry::Duration;
 using telemetry::RefereeState;
 using telemetry::WallTime;
 
-namespace lenient = telemetry::lenient;
+namespace lenient = lenient;
 using lenient::each;
 using lenient::member;
 using lenient::number;
@@ -272,7 +272,7 @@ std::string LiveState::text(const LiveOptions& options, double time, WallTime ze
                            {"address", kept.sender.address.value},
                            {"port", kept.sender.port},
                            {"localPort", kept.localPort},
-                           {"base64", telemetry::toBase64(kept.payload)}});
+                           {"base64", toBase64(kept.payload)}});
   };
   for (const std::optional<Kept>* kept : {&m_former, &m_shown, &m_late, &m_trueData, &m_other}) {
     if (*kept) put(**kept);
@@ -310,7 +310,7 @@ Result<LiveState::Read> LiveState::read(std::string_view bytes, WallTime zero) {
   constexpr std::size_t maxPackets = telemetry::RefereeTracker::maxReplies + 5;
   each(json, "referee", maxPackets, [&](std::size_t, const Json& packet) {
     if (!packet.is_object()) return;
-    const auto payload = telemetry::fromBase64(lenient::text(packet, "base64"));
+    const auto payload = fromBase64(lenient::text(packet, "base64"));
     if (!payload) return;
     const auto decoded = telemetry::decodeReferee(*payload);
     if (!decoded) return;

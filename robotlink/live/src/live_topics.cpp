@@ -13,10 +13,10 @@
 #include <robotlink/live/topic_groups.h>
 #include <robotlink/live/topic_meanings.h>
 #include <robotlink/live/topic_robots.h>
+#include <telemetry/formats/text_errors.h>
+#include <telemetry/monitor/arrival_stats.h>
 #include <telemetry/pb2/clock_map.h>
 #include <telemetry/recordings/decoded_topics.h>
-#include <telemetry/wire/arrival_stats.h>
-#include <telemetry/wire/text_errors.h>
 
 namespace pitchboard::link {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include <robotlink/frame/teams.h>
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/monitor/team_monitor.h>
 
 #include "uid_ranges.h"
 

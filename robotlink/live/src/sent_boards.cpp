@@ -11,9 +11,9 @@
 #include <base/lined_json.h>
 #include <robotlink/blackboard/variable_meanings.h>
 #include <robotlink/live/board_columns.h>
+#include <telemetry/monitor/arrival_stats.h>
+#include <telemetry/monitor/sequence_stats.h>
 #include <telemetry/pb2/clock_map.h>
-#include <telemetry/wire/arrival_stats.h>
-#include <telemetry/wire/sequence_stats.h>
 
 #include "board_meanings.h"
 

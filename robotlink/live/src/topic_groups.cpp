@@ -53,7 +53,9 @@ std::string TopicGroups::freeName(const std::string& name, const std::string& or
 
 TopicGroups::Group& TopicGroups::groupOf(std::size_t source, const telemetry::RecordedTopic& topic,
                                          std::size_t index, const std::string& origin) {
-  auto& group = m_groups[{source, index}];
+  if (source >= m_groups.size()) m_groups.resize(source + 1);
+  if (index >= m_groups[source].size()) m_groups[source].resize(index + 1);
+  auto& group = m_groups[source][index];
   if (!group) {
     group = std::make_unique<Group>();
     const auto begin = topic.name.find_first_not_of('/');
@@ -65,7 +67,9 @@ TopicGroups::Group& TopicGroups::groupOf(std::size_t source, const telemetry::Re
 
 const TopicGroups::Layout& TopicGroups::layoutOf(Group& group,
                                                  const telemetry::RecordedMessage& message) {
+  if (group.layout != nullptr && group.layout->shape == message.shape) return *group.layout;
   if (const auto known = group.layouts.find(message.shape.get()); known != group.layouts.end()) {
+    group.layout = &known->second;
     return known->second;
   }
   if (group.layouts.size() >= maxKeptLayouts) group.layouts.clear();
@@ -94,11 +98,27 @@ const TopicGroups::Layout& TopicGroups::layoutOf(Group& group,
     changed = true;
   }
   layout.isTextOnly = layout.isTextOnly && hasText;
+  sortFields(group, layout);
+  group.layout = &layout;
   if (changed || !group.isKnown) {
     group.id = m_rows.addGroup(group.info);
     group.isKnown = true;
   }
   return layout;
+}
+
+void TopicGroups::sortFields(const Group& group, Layout& layout) {
+  layout.isInOrder = true;
+  for (std::uint32_t i = 0; i < layout.columns.size(); ++i) {
+    const std::uint32_t column = layout.columns[i];
+    const bool isText = layout.shape->fields[i].kind == RecordedKind::Text;
+    // A text whose column has numbers is left out, a number in a column of texts is its code.
+    const bool fits =
+        column != noColumn && (!isText || group.info.columns[column].kind == ColumnKind::Text);
+    if (isText) layout.texts.push_back({i, fits ? column : noColumn});
+    if (!fits) ++layout.refused;
+    layout.isInOrder = layout.isInOrder && column == i;
+  }
 }
 
 void TopicGroups::logLine(const Group& group, double time, std::string text) {
@@ -113,6 +133,7 @@ void TopicGroups::logLine(const Group& group, double time, std::string text) {
 double TopicGroups::codeOf(Group& group, std::uint32_t column, std::string_view text, double time,
                            bool isLogged) {
   Texts& texts = group.texts[column];
+  if (texts.code >= 0.0 && texts.coded == text) return texts.code;
   const auto known = texts.codes.find(text);
   if (known == texts.codes.end() && !texts.keepsChanging) {
     texts.keepsChanging = texts.codes.size() == maxLabels;
@@ -123,7 +144,9 @@ double TopicGroups::codeOf(Group& group, std::uint32_t column, std::string_view 
     group.id = m_rows.addGroup(group.info);
     if (!texts.keepsChanging) return code;
   } else if (known != texts.codes.end()) {
-    return known->second;
+    texts.coded = known->first;
+    texts.code = known->second;
+    return texts.code;
   }
   if (!isLogged && texts.last != text) {
     texts.last = text;
@@ -152,6 +175,20 @@ void TopicGroups::logTexts(const Group& group, const telemetry::RecordedMessage&
   logLine(group, time, std::move(line));
 }
 
+void TopicGroups::fillRow(Group& group, const Layout& layout,
+                          const telemetry::RecordedMessage& message, std::size_t columns) {
+  group.refused += layout.refused;
+  if (layout.isInOrder) {
+    group.row.assign(message.values.begin(), message.values.end());
+    group.row.resize(columns, missing);
+    return;
+  }
+  group.row.assign(columns, missing);
+  for (std::size_t i = 0; i < message.values.size(); ++i) {
+    if (layout.columns[i] != noColumn) group.row[layout.columns[i]] = message.values[i];
+  }
+}
+
 void TopicGroups::take(std::size_t source, const telemetry::RecordedTopic& topic,
                        const telemetry::RecordedMessage& message, double time,
                        const std::string& origin) {
@@ -166,31 +203,38 @@ void TopicGroups::take(std::size_t source, const telemetry::RecordedTopic& topic
     time = group.lastTime;
   }
   group.lastTime = time;
-  group.row.assign(group.info.columns.size(), missing);
   if (layout.isTextOnly) logTexts(group, message, time);
+  const std::size_t columns = group.info.columns.size();
+  if (layout.isInOrder && layout.texts.empty() && message.values.size() == columns) {
+    m_rows.append(group.id, {time, {}, message.values});
+    return;
+  }
+  fillRow(group, layout, message, columns);
   std::size_t text = 0;
-  for (std::size_t i = 0; i < message.values.size(); ++i) {
-    const std::uint32_t column = layout.columns[i];
-    const bool isText = message.shape->fields[i].kind == RecordedKind::Text;
-    const std::string_view shown = isText ? message.texts[text++] : std::string_view();
-    if (column == noColumn) {
-      ++group.refused;
-    } else if (!isText) {
-      group.row[column] = message.values[i];
-    } else if (group.info.columns[column].kind == ColumnKind::Text) {
+  for (const auto& [field, column] : layout.texts) {
+    const std::string_view shown = message.texts[text++];
+    if (column != noColumn) {
       group.row[column] = codeOf(group, column, shown, time, layout.isTextOnly);
-    } else {
-      ++group.refused;  // it was a number before
     }
   }
   m_rows.append(group.id, {time, {}, group.row});
+}
+
+std::vector<const TopicGroups::Group*> TopicGroups::allGroups() const {
+  std::vector<const Group*> groups;
+  for (const auto& source : m_groups) {
+    for (const auto& group : source) {
+      if (group) groups.push_back(group.get());
+    }
+  }
+  return groups;
 }
 
 void TopicGroups::addNotes(std::vector<std::string>& notes) const {
   const auto many = [](std::uint64_t count, const char* what) {
     return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
   };
-  for (const auto& [key, group] : m_groups) {
+  for (const Group* group : allGroups()) {
     if (group->empty > 0) {
       notes.push_back(group->info.name + ": " + many(group->empty, "message") +
                       " without values (the type has no fields).");
@@ -209,7 +253,7 @@ void TopicGroups::addNotes(std::vector<std::string>& notes) const {
 
 std::uint64_t TopicGroups::variables() const {
   std::uint64_t sum = 0;
-  for (const auto& [key, group] : m_groups) sum += group->info.columns.size();
+  for (const Group* group : allGroups()) sum += group->info.columns.size();
   return sum;
 }
 

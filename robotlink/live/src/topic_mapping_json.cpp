@@ -68,6 +68,7 @@ constexpr std::array<TextRow<MappedReferee>, 6> refereeTexts{
      {"rightScore", &MappedReferee::rightScore}}};
 
 constexpr std::array<std::string_view, 3> frameNames{"centre", "studio", "bottom-left"};
+constexpr std::array<std::string_view, 3> clockNames{"auto", "header", "log"};
 
 struct VoltRow {
   const char* key;
@@ -84,7 +85,8 @@ class MappingReader {
 
   TopicMapping read(const JsonNode& root) {
     TopicMapping mapping;
-    const JsonObject file(m_report, root, "", {"mapping", "field", "robots", "log", "referee"});
+    const JsonObject file(m_report, root, "",
+                          {"mapping", "field", "robots", "log", "referee", "recordings"});
     file.require("mapping");
     (void)file.integer("mapping", 1, 1, 1);
     mapping.field = file.text("field", {}, 100);
@@ -100,6 +102,9 @@ class MappingReader {
       mapping.log.push_back(std::move(log));
     });
     if (const JsonNode* node = file.find("referee")) mapping.referee = readReferee(*node);
+    each(file, "recordings", [&](const JsonNode& node, const std::string& path) {
+      mapping.recordings.push_back(readRecording(node, path));
+    });
     return mapping;
   }
 
@@ -224,6 +229,19 @@ class MappingReader {
     return referee;
   }
 
+  MappedRecording readRecording(const JsonNode& node, const std::string& path) {
+    MappedRecording recording;
+    const JsonObject object(m_report, node, path, {"file", "time", "offset"});
+    object.require("file");
+    recording.file = object.text("file", {}, longestPath);
+    if (const auto clock = object.choice("time", clockNames, "time")) {
+      recording.clock = static_cast<RecordingClock>(*clock);
+    }
+    constexpr double longest = 1e9;
+    recording.offset = object.number("offset", 0.0, {-longest, longest, "seconds"});
+    return recording;
+  }
+
   JsonReport& m_report;
 };
 
@@ -301,6 +319,14 @@ std::string mappingText(const TopicMapping& mapping) {
     json["referee"] = textsOf(*mapping.referee, refereeTexts);
     json["referee"]["left"] = info(mapping.referee->left).name;
     json["referee"]["right"] = info(mapping.referee->right).name;
+  }
+  for (const MappedRecording& recording : mapping.recordings) {
+    Json one{{"file", recording.file}};
+    if (recording.clock != RecordingClock::Auto) {
+      one["time"] = clockNames[static_cast<std::size_t>(recording.clock)];
+    }
+    if (recording.offset != 0.0) one["offset"] = recording.offset;
+    json["recordings"].push_back(std::move(one));
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

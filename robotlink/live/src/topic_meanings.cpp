@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 namespace pitchboard::link {
 namespace {

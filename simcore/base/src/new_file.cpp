@@ -117,6 +117,13 @@ Result<void> NewFile::write(std::string_view bytes) {
   return {};
 }
 
+void NewFile::startFlush(std::uint64_t offset, std::uint64_t bytes) const {
+  const int before = errno;
+  (void)::sync_file_range(m_fd.get(), static_cast<off_t>(offset), static_cast<off_t>(bytes),
+                          SYNC_FILE_RANGE_WRITE);
+  errno = before;  // a pipe cannot do it
+}
+
 Result<void> NewFile::sync() const {
   // Pipes and some network file systems do not know the call: nothing more can be done there.
   if (::fdatasync(m_fd.get()) == 0 || errno == EINVAL || errno == ENOSYS) return {};

@@ -19,7 +19,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include <telemetry/wire/text_errors.h>
+#include <telemetry/formats/text_errors.h>
 
 namespace pitchboard::telemetry {
 namespace {

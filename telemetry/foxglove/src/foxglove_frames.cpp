@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include <telemetry/wire/base64.h>
+#include <base/base64.h>
 
 namespace pitchboard::telemetry {
 namespace {

@@ -18,6 +18,7 @@
 #include <map>
 #include <set>
 #include <thread>
+#include <utility>
 
 namespace pitchboard::telemetry {
 namespace {
@@ -65,6 +66,11 @@ struct FoxgloveServer::Impl {
   struct Kept {
     std::uint64_t time = 0;
     std::string payload;
+    std::function<std::string()> make{};  ///< makes the payload; empty: it is there
+    const std::string& bytes() {
+      if (make) payload = std::exchange(make, {})();
+      return payload;
+    }
   };
 
   class Client : public std::enable_shared_from_this<Client> {
@@ -92,6 +98,12 @@ struct FoxgloveServer::Impl {
         frame.isData = true;
         send(std::move(frame));
       }
+    }
+    /// Makes the message only if it is wanted.
+    void send(std::uint32_t channel, Kept& kept) {
+      const bool isWanted = std::ranges::any_of(
+          m_subscriptions, [channel](const auto& one) { return one.second == channel; });
+      if (isWanted) send(channel, kept.time, kept.bytes());
     }
     void forget(std::uint32_t channel) {
       std::erase_if(m_subscriptions, [channel](const auto& one) { return one.second == channel; });
@@ -189,7 +201,7 @@ struct FoxgloveServer::Impl {
         const auto kept = m_server.kept.find(channel);
         if (kept == m_server.kept.end()) continue;
         send(binaryFrame(
-            foxgloveMessageFrame({subscription, kept->second.time, kept->second.payload})));
+            foxgloveMessageFrame({subscription, kept->second.time, kept->second.bytes()})));
       }
     }
     void take(const FoxgloveUnsubscribe& request) {
@@ -344,14 +356,22 @@ void FoxgloveServer::unadvertise(std::uint32_t channel) {
   });
 }
 
-void FoxgloveServer::send(std::uint32_t channel, std::uint64_t logTime, std::string_view payload,
-                          bool keep) {
-  if (!keep && m_impl->clientCount == 0) return;
-  asio::post(m_impl->context,
-             [&impl = *m_impl, channel, logTime, payload = std::string(payload), keep]() mutable {
-               for (const auto& client : impl.clients) client->send(channel, logTime, payload);
-               if (keep) impl.kept[channel] = {logTime, std::move(payload)};
-             });
+void FoxgloveServer::send(std::uint32_t channel, std::uint64_t logTime, std::string_view payload) {
+  if (m_impl->clientCount == 0) return;
+  asio::post(m_impl->context, [&impl = *m_impl, channel, logTime, payload = std::string(payload)] {
+    for (const auto& client : impl.clients) client->send(channel, logTime, payload);
+  });
+}
+
+void FoxgloveServer::sendKept(std::uint32_t channel, std::uint64_t logTime,
+                              std::function<std::string()> payload) {
+  Impl::Kept kept{logTime, {}, std::move(payload)};
+  // Made here, so that a match that plays faster than its messages are made does not pile them up.
+  if (m_impl->clientCount > 0) kept.bytes();
+  asio::post(m_impl->context, [&impl = *m_impl, channel, kept = std::move(kept)]() mutable {
+    for (const auto& client : impl.clients) client->send(channel, kept);
+    impl.kept[channel] = std::move(kept);
+  });
 }
 
 void FoxgloveServer::setTime(std::uint64_t time) {

@@ -79,4 +79,8 @@ std::uint32_t extendedCrc(std::uint32_t crc, std::string_view bytes) {
   return bytes.empty() ? crc : crcOfZlib(crc, bytes);
 }
 
+std::uint32_t joinedCrc(std::uint32_t first, std::uint32_t second, std::uint64_t size) {
+  return static_cast<std::uint32_t>(crc32_combine(first, second, static_cast<z_off_t>(size)));
+}
+
 }  // namespace pitchboard::telemetry

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <telemetry/mcap/mcap_chunk.h>
 
+#include <array>
+
 #include "mcap_bytes.h"
 
 namespace pitchboard::telemetry {
@@ -17,12 +19,19 @@ void McapChunk::add(const McapChannel& channel) {
 
 void McapChunk::addHead(const McapMessage& head, std::size_t size) {
   m_index.push_back({head.logTime, m_body.size(), head.channel});
-  m_body += static_cast<char>(McapOp::Message);
-  putNumber(m_body, static_cast<std::uint64_t>(messageHead + size));
-  putNumber(m_body, head.channel);
-  putNumber(m_body, head.sequence);
-  putNumber(m_body, head.logTime);
-  putNumber(m_body, head.publishTime);
+  std::array<char, recordHead + messageHead> bytes{};
+  char* at = bytes.data();
+  const auto put = [&at](auto value) {
+    std::memcpy(at, &value, sizeof value);
+    at += sizeof value;
+  };
+  put(static_cast<std::uint8_t>(McapOp::Message));
+  put(static_cast<std::uint64_t>(messageHead + size));
+  put(head.channel);
+  put(head.sequence);
+  put(head.logTime);
+  put(head.publishTime);
+  m_body.append(bytes.data(), bytes.size());
 }
 
 char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
@@ -33,8 +42,13 @@ char* McapChunk::addMessage(std::uint16_t channel, std::uint32_t sequence, std::
 }
 
 void McapChunk::add(const McapMessage& message) {
-  addHead(message, message.data.size());
+  add(message, {});
+}
+
+void McapChunk::add(const McapMessage& message, std::string_view more) {
+  addHead(message, message.data.size() + more.size());
   m_body += message.data;
+  m_body += more;
 }
 
 void McapChunk::clear() {

@@ -15,6 +15,8 @@ namespace {
 
 /// Passing over less than this costs more than reading it.
 constexpr std::uint64_t leastPassedOver = 16U << 10U;
+/// Heads of chunks and messages are far apart; reading more around them would be reading images.
+constexpr std::size_t headWindow = 512, indexWindow = 16U << 10U;
 
 }  // namespace
 
@@ -22,16 +24,17 @@ constexpr std::uint64_t leastPassedOver = 16U << 10U;
 std::optional<std::vector<std::uint64_t>> McapReader::Impl::unwantedIn(
     const McapChunkInfo& chunk, const std::function<bool(std::uint16_t)>& isWanted) const {
   std::vector<std::uint64_t> unwanted;
-  std::string record;
   std::uint64_t at = chunk.offset + chunk.length;
   bool isIndexed = false;
   for (;;) {
-    const RecordHead head = headIn(source.look(at, recordHead));
+    const RecordHead head = headIn(source.look(at, recordHead, indexWindow));
     if (!head.whole || head.op != McapOp::MessageIndex || !lengthFits(head.op, head.length) ||
-        head.length > chunk.length + maxHeadLength ||
-        !source.read(at + recordHead, static_cast<std::size_t>(head.length), record)) {
+        head.length > chunk.length + maxHeadLength) {
       break;
     }
+    const auto length = static_cast<std::size_t>(head.length);
+    const std::string_view record = source.look(at + recordHead, length, indexWindow);
+    if (record.size() != length) break;
     isIndexed = true;
     RecordReader in(record);
     const auto channel = in.number<std::uint16_t>();
@@ -51,8 +54,9 @@ bool McapReader::Impl::pick(const McapChunkInfo& chunk,
                             const std::function<bool(std::uint16_t)>& isWanted,
                             std::string& body) const {
   if (chunk.loose || !chunk.compression.empty()) return false;
-  const std::string_view look = source.look(
-      chunk.offset, static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)));
+  const std::string_view look =
+      source.look(chunk.offset,
+                  static_cast<std::size_t>(std::min<std::uint64_t>(256, chunk.length)), headWindow);
   const RecordHead record = headIn(look);
   if (!record.whole || record.op != McapOp::Chunk || record.length != chunk.length - recordHead) {
     return false;
@@ -63,17 +67,18 @@ bool McapReader::Impl::pick(const McapChunkInfo& chunk,
   const std::uint64_t size = head->info.compressedSize;
   const auto unwanted = unwantedIn(chunk, isWanted);
   if (!unwanted || unwanted->empty()) return false;
-  body.clear();
+  std::size_t kept = 0;    // bytes of `body`; what it held before is written over
   std::uint64_t from = 0;  // what is kept since the last message that was passed over
   const auto keepUntil = [&](std::uint64_t until) {
-    const std::size_t kept = body.size();
     if (until - from > options.maxChunkBytes - std::min(kept, options.maxChunkBytes)) return false;
-    body.resize(kept + static_cast<std::size_t>(until - from));
-    return source.readInto(begin + from, body.data() + kept, body.size() - kept);
+    const auto count = static_cast<std::size_t>(until - from);
+    if (body.size() < kept + count) body.resize(kept + count);
+    kept += count;
+    return source.readInto(begin + from, body.data() + kept - count, count);
   };
   for (const std::uint64_t offset : *unwanted) {
     if (offset < from || offset > size) return false;
-    const RecordHead message = headIn(source.look(begin + offset, recordHead));
+    const RecordHead message = headIn(source.look(begin + offset, recordHead, headWindow));
     if (!message.whole || message.op != McapOp::Message || message.length > size - offset ||
         size - offset - message.length < recordHead) {
       return false;
@@ -82,7 +87,9 @@ bool McapReader::Impl::pick(const McapChunkInfo& chunk,
     if (!keepUntil(offset)) return false;
     from = offset + recordHead + message.length;
   }
-  return keepUntil(size);
+  if (!keepUntil(size)) return false;
+  body.resize(kept);
+  return true;
 }
 
 Result<void> McapReader::readChunk(const McapChunkInfo& chunk,

@@ -9,17 +9,10 @@
 #include <cstring>
 #include <utility>
 
-#include <base/byte_sizes.h>
 #include <base/new_file.h>
 #include <base/system_reason.h>
 
 namespace pitchboard::telemetry {
-namespace {
-
-constexpr std::size_t windowBytes = 256 * kibibyte;
-
-}  // namespace
-
 Result<McapSource> McapSource::file(const std::string& path) {
   McapSource source;
   source.m_name = path;
@@ -76,12 +69,13 @@ bool McapSource::read(std::uint64_t offset, std::size_t count, std::string& out)
   return readSome(offset, out.data(), count) == count;
 }
 
-std::string_view McapSource::look(std::uint64_t offset, std::size_t count) const {
+std::string_view McapSource::look(std::uint64_t offset, std::size_t count,
+                                  std::size_t window) const {
   if (offset >= m_size) return {};
   count = static_cast<std::size_t>(std::min<std::uint64_t>(count, m_size - offset));
   if (!m_fd) return std::string_view(m_bytes).substr(offset, count);
   if (offset < m_windowOffset || offset + count > m_windowOffset + m_window.size()) {
-    m_window.resize(std::max(count, windowBytes));
+    m_window.resize(std::max(count, window));
     m_window.resize(readSome(offset, m_window.data(), m_window.size()));
     m_windowOffset = offset;
   }

@@ -29,9 +29,11 @@ class McapSource {
   bool readInto(std::uint64_t offset, char* to, std::size_t count) const {
     return readSome(offset, to, count) == count;
   }
-  /// At most `count` bytes (fewer at the end); small ones come from a window that is kept. Valid
-  /// until the next call.
-  std::string_view look(std::uint64_t offset, std::size_t count) const;
+  static constexpr std::size_t windowBytes = 256U << 10U;
+  /// At most `count` bytes (fewer at the end); small ones come from a window that is kept, of which
+  /// a new one has `window` bytes. Valid until the next call.
+  std::string_view look(std::uint64_t offset, std::size_t count,
+                        std::size_t window = windowBytes) const;
 
  private:
   McapSource() = default;

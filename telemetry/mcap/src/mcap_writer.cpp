@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -114,6 +115,9 @@ namespace {
 /// Room that is kept behind the file for the summary, beyond what the summary needs so far.
 constexpr std::uint64_t spareRoom = 64 * kibibyte;
 
+/// Who flushes the file at its end must not wait for all of it.
+constexpr std::uint64_t bytesBetweenFlushes = 4 * mebibyte;
+
 /// Chunks after which all definitions are repeated; in the beginning of a file more often.
 constexpr std::uint64_t chunksBetweenRepeats = 64;
 
@@ -137,10 +141,12 @@ struct McapWriter::Impl {
   ZSTD_CCtx* compressor = nullptr;
   std::uint32_t dataCrc = 0;
   std::optional<Error> failed;
-  std::uint64_t whole = 0;  ///< the file holds whole records up to here
+  std::uint64_t whole = 0;    ///< the file holds whole records up to here
+  std::uint64_t flushed = 0;  ///< without options.sync: it is on its way to the disk up to here
   bool closed = false;
 
-  std::string out;  ///< the records of the chunk being written
+  std::string out;      ///< the record that is being written; of a chunk: what precedes its bytes
+  std::string indexes;  ///< the message indexes behind it
   std::string compressed;
   McapSummary summary;
   std::uint64_t chunksGiven = 0;  ///< without those of repeated definitions
@@ -161,14 +167,30 @@ struct McapWriter::Impl {
     return defined || std::has_single_bit(chunksGiven) || chunksGiven % chunksBetweenRepeats == 0;
   }
 
+  /// A part of what is written, and its checksum if that is known.
+  struct Part {
+    std::string_view bytes;
+    std::optional<std::uint32_t> crc{};
+  };
   /// Whole records of the data section.
-  Result<void> write(std::string_view records) {
+  Result<void> write(std::initializer_list<Part> parts) {
     if (failed) return tl::unexpected(*failed);
-    const auto room = file.keepFreeSpace(records.size() + summary.size() + spareRoom);
+    std::uint64_t size = 0;
+    for (const Part& part : parts) size += part.bytes.size();
+    const auto room = file.keepFreeSpace(size + summary.size() + spareRoom);
     if (!room) return fail(room.error());
-    if (auto written = file.write(records); !written) return fail(written.error());
+    for (const Part& part : parts) {
+      if (auto written = file.write(part.bytes); !written) return fail(written.error());
+    }
     whole = file.size();
-    dataCrc = extendedCrc(dataCrc, records);
+    if (!disk && whole - flushed >= bytesBetweenFlushes) {
+      file.startFlush(flushed, whole - flushed);
+      flushed = whole;
+    }
+    for (const Part& part : parts) {
+      dataCrc = part.crc ? joinedCrc(dataCrc, *part.crc, part.bytes.size())
+                         : extendedCrc(dataCrc, part.bytes);
+    }
     return {};
   }
 
@@ -180,6 +202,10 @@ struct McapWriter::Impl {
     return {};
   }
 
+  /// Returns the bytes of a chunk as they stand in the file.
+  Result<std::string_view> pack(std::string_view body);
+  bool isPlain() const { return options.level == McapWriterOptions::plainChunks; }
+  const char* compression() const { return isPlain() ? "" : "zstd"; }
   void putMessageIndexes(const McapChunk& chunk, std::uint64_t offset,
                          std::vector<std::pair<std::uint16_t, std::uint64_t>>& places);
 };
@@ -212,8 +238,20 @@ Result<McapWriter> McapWriter::create(NewFile file, const McapWriterOptions& opt
   putText(begin, options.profile);
   putText(begin, options.library);
   endRecord(begin, record);
-  TRY(impl->write(begin));
+  TRY(impl->write({{begin}}));
   return McapWriter(std::move(impl));
+}
+
+Result<std::string_view> McapWriter::Impl::pack(std::string_view body) {
+  if (isPlain()) return body;
+  compressed.resize(ZSTD_compressBound(body.size()));
+  const std::size_t size =
+      ZSTD_compress2(compressor, compressed.data(), compressed.size(), body.data(), body.size());
+  if (!ZSTD_isError(size)) return std::string_view(compressed).substr(0, size);
+  (void)fail({ErrorCode::SystemError,
+              std::string("The data cannot be compressed: ") + ZSTD_getErrorName(size) + ".",
+              file.path()});
+  return tl::unexpected(*failed);
 }
 
 /// One record per channel, in the order of the channels' numbers.
@@ -222,17 +260,16 @@ void McapWriter::Impl::putMessageIndexes(
     std::vector<std::pair<std::uint16_t, std::uint64_t>>& places) {
   std::map<std::uint16_t, std::vector<const McapChunk::Entry*>> perChannel;
   for (const McapChunk::Entry& entry : chunk.m_index) perChannel[entry.channel].push_back(&entry);
-  const std::size_t begin = out.size();
   for (const auto& [channel, entries] : perChannel) {
-    places.emplace_back(channel, offset + out.size() - begin);
-    const auto record = beginRecord(out, McapOp::MessageIndex);
-    putNumber(out, channel);
-    putNumber(out, static_cast<std::uint32_t>(entries.size() * 16));
+    places.emplace_back(channel, offset + indexes.size());
+    const auto record = beginRecord(indexes, McapOp::MessageIndex);
+    putNumber(indexes, channel);
+    putNumber(indexes, static_cast<std::uint32_t>(entries.size() * 16));
     for (const McapChunk::Entry* entry : entries) {
-      putNumber(out, entry->logTime);
-      putNumber(out, entry->offset);
+      putNumber(indexes, entry->logTime);
+      putNumber(indexes, entry->offset);
     }
-    endRecord(out, record);
+    endRecord(indexes, record);
   }
 }
 
@@ -258,35 +295,29 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
       end = std::max(end, entry.logTime);
     }
   }
-  impl.compressed.resize(ZSTD_compressBound(chunk.m_body.size()));
-  const std::size_t size =
-      ZSTD_compress2(impl.compressor, impl.compressed.data(), impl.compressed.size(),
-                     chunk.m_body.data(), chunk.m_body.size());
-  if (ZSTD_isError(size)) {
-    return impl.fail(
-        {ErrorCode::SystemError,
-         std::string("The data cannot be compressed: ") + ZSTD_getErrorName(size) + ".",
-         impl.file.path()});
-  }
-  std::string& out = impl.out;
-  out.clear();
-  const auto record = beginRecord(out, McapOp::Chunk);
-  putNumber(out, start);
-  putNumber(out, end);
-  putNumber(out, static_cast<std::uint64_t>(chunk.m_body.size()));
-  putNumber(out, extendedCrc(0, chunk.m_body));
-  putText(out, "zstd");
-  putNumber(out, static_cast<std::uint64_t>(size));
-  out.append(impl.compressed.data(), size);
-  endRecord(out, record);
+  const std::string_view packed = TRY(impl.pack(chunk.m_body));
+  const std::uint32_t crc = extendedCrc(0, chunk.m_body);
+  std::string& head = impl.out;
+  head.clear();
+  const auto record = beginRecord(head, McapOp::Chunk);
+  putNumber(head, start);
+  putNumber(head, end);
+  putNumber(head, static_cast<std::uint64_t>(chunk.m_body.size()));
+  putNumber(head, crc);
+  putText(head, impl.compression());
+  putNumber(head, static_cast<std::uint64_t>(packed.size()));
+  const std::uint64_t length = head.size() + packed.size();
+  setNumber(head, record - 8, length - record);
   const std::uint64_t offset = impl.file.size();
-  const std::uint64_t length = out.size();
+  std::string& indexes = impl.indexes;
+  indexes.clear();
   std::vector<std::pair<std::uint16_t, std::uint64_t>> places;
   impl.putMessageIndexes(chunk, offset + length, places);
-  const std::uint64_t indexLength = out.size() - length;
+  const std::uint64_t indexLength = indexes.size();
 
   const std::uint32_t crcBefore = impl.dataCrc;
-  TRY(impl.write(out));
+  const auto crcOfPacked = impl.isPlain() ? std::optional(crc) : std::nullopt;
+  TRY(impl.write({{head}, {packed, crcOfPacked}, {indexes}}));
   if (auto settled = impl.settle(); !settled) {
     // The summary will not name this chunk, so it must not stand in the file either.
     impl.whole = offset;
@@ -305,8 +336,8 @@ Result<void> McapWriter::writeOne(const McapChunk& chunk) {
     putNumber(index, place);
   }
   putNumber(index, indexLength);
-  putText(index, "zstd");
-  putNumber(index, static_cast<std::uint64_t>(size));
+  putText(index, impl.compression());
+  putNumber(index, static_cast<std::uint64_t>(packed.size()));
   putNumber(index, static_cast<std::uint64_t>(chunk.m_body.size()));
   endRecord(index, indexRecord);
 
@@ -339,7 +370,7 @@ Result<void> McapWriter::attach(std::uint64_t logTime, std::uint64_t createTime,
   putNumber(out, extendedCrc(0, std::string_view(out).substr(record)));
   endRecord(out, record);
   const std::uint64_t offset = impl.file.size();
-  TRY(impl.write(out));
+  TRY(impl.write({{out}}));
 
   ++impl.summary.attachments;
   std::string& index = impl.summary.attachmentIndexes;
@@ -363,7 +394,7 @@ Result<void> McapWriter::metadata(std::string_view name, const McapMap& values) 
   putMap(out, values);
   endRecord(out, record);
   const std::uint64_t offset = impl.file.size();
-  TRY(impl.write(out));
+  TRY(impl.write({{out}}));
 
   ++impl.summary.metadatas;
   std::string& index = impl.summary.metadataIndexes;

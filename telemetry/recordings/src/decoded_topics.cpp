@@ -60,7 +60,6 @@ bool DecodedTopics::decode(std::size_t topic, std::string_view bytes, std::int64
                            RecordedMessage& to) {
   State& state = m_states[topic];
   DecodedMessage& decoded = *m_decoded;
-  decoded.clear();
   if (!state.decoder->decode(bytes, decoded)) {
     ++state.wrong;
     return false;
@@ -69,7 +68,7 @@ bool DecodedTopics::decode(std::size_t topic, std::string_view bytes, std::int64
   to.topic = topic;
   to.logTime = logTime;
   to.stamp = decoded.stamp;
-  to.shape = decoded.shape;
+  if (to.shape != decoded.shape) to.shape = decoded.shape;
   to.values = decoded.values;
   to.texts = decoded.texts;
   return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // MCAP files of any program. Chunks that overlap in time are unpacked together, so that messages
-// come in the order of their log times, also over the files of a split recording.
+// come in the order of their log times, also over the files of a split recording. The next chunks
+// are read and unpacked on a thread of their own.
 #include <algorithm>
 #include <limits>
 #include <queue>
@@ -11,6 +12,7 @@
 #include <telemetry/mcap/mcap_reader.h>
 #include <telemetry/recordings/decoded_topics.h>
 
+#include "chunks_ahead.h"
 #include "recording_formats.h"
 
 namespace pitchboard::telemetry {
@@ -40,9 +42,11 @@ class McapRecording : public RecordingReader {
     return {};
   }
 
-  void sortChunks() {
+  void begin() {
     std::stable_sort(m_chunks.begin(), m_chunks.end(),
-                     [](const Chunk& a, const Chunk& b) { return a.start < b.start; });
+                     [](const ListedChunk& a, const ListedChunk& b) { return a.start < b.start; });
+    m_ahead.emplace(m_chunks.size(),
+                    [this](std::size_t chunk, OpenChunk& to) { read(m_chunks[chunk], to); });
   }
 
   const std::vector<RecordedTopic>& topics() const override { return m_topics.topics(); }
@@ -55,17 +59,15 @@ class McapRecording : public RecordingReader {
 
   Result<RecordedItem> next() override {
     for (;;) {
-      openChunks();
-      if (m_heads.empty()) return RecordedItem::End;
-      const Head head = m_heads.top();
-      m_heads.pop();
-      Open& open = *m_open[head.open];
-      const Entry entry = open.entries[open.at++];
-      if (open.at < open.entries.size()) {
-        m_heads.push({open.entries[open.at].logTime, head.open});
-      } else {
-        m_finished = head.open;  // its bytes are needed until the next call
+      if (!m_current) {
+        openChunks();
+        if (m_heads.empty()) return RecordedItem::End;
+        m_current = m_heads.top().open;
+        m_heads.pop();
       }
+      OpenChunk& open = *m_open[*m_current];
+      const ChunkEntry& entry = open.entries[open.at++];
+      leaveUnlessNext(open);
       if (m_topics.decode(entry.topic, entry.data, toSigned(entry.logTime), m_message)) {
         return RecordedItem::Message;
       }
@@ -95,19 +97,9 @@ class McapRecording : public RecordingReader {
     McapReader reader;
     std::vector<std::size_t> topicOfChannel;
   };
-  struct Chunk {
+  struct ListedChunk {
     std::uint64_t start;
     std::size_t file, index;
-  };
-  struct Entry {
-    std::uint64_t logTime;
-    std::size_t topic;
-    std::string_view data;
-  };
-  struct Open {
-    std::string body;
-    std::vector<Entry> entries;
-    std::size_t at = 0;
   };
   struct Head {
     std::uint64_t logTime;
@@ -127,6 +119,21 @@ class McapRecording : public RecordingReader {
     if (notes.size() > 1000) return;
     notes.push_back(name + ": " + std::to_string(loss.bytes) + " bytes at byte " +
                     std::to_string(loss.offset) + " were left out. " + loss.reason);
+  }
+
+  /// Goes on with the chunk that is read, unless another one has the next message.
+  void leaveUnlessNext(const OpenChunk& open) {
+    if (open.at == open.entries.size()) {
+      m_finished = m_current;  // its bytes are needed until the next call
+      m_current.reset();
+      return;
+    }
+    const std::uint64_t time = open.entries[open.at].logTime;
+    const bool isNext = (m_heads.empty() || time < m_heads.top().logTime) &&
+                        (m_nextChunk == m_chunks.size() || time < m_chunks[m_nextChunk].start);
+    if (isNext) return;
+    m_heads.push({time, *m_current});
+    m_current.reset();
   }
 
   void takeChannels(File& file) {
@@ -166,60 +173,69 @@ class McapRecording : public RecordingReader {
   void openChunks() {
     if (m_finished) {
       m_openBytes -= m_open[*m_finished]->body.size();
+      m_ahead->giveBack(std::move(m_open[*m_finished]));
       m_free.push_back(*m_finished);
       m_finished.reset();
     }
     while (m_nextChunk < m_chunks.size() &&
            (m_heads.empty() || (m_chunks[m_nextChunk].start <= m_heads.top().logTime &&
                                 m_openBytes < maxOpenChunkBytes))) {
-      openChunk(m_chunks[m_nextChunk++]);
+      ++m_nextChunk;
+      take(m_ahead->next());
     }
   }
 
-  void openChunk(const Chunk& chunk) {
+  void take(std::unique_ptr<OpenChunk> open) {
+    m_unknown += open->unknown;
+    for (const auto& [topic, count] : open->passed) m_topics.passOver(topic, count);
+    if (!open->damage.empty() && m_damage.size() < 100) {
+      m_damage.insert(m_damage.end(), open->damage.begin(), open->damage.end());
+    }
+    if (open->entries.empty()) return m_ahead->giveBack(std::move(open));
     if (m_free.empty()) {
       m_free.push_back(m_open.size());
-      m_open.push_back(std::make_unique<Open>());
+      m_open.emplace_back();
     }
     const std::size_t place = m_free.back();
-    Open& open = *m_open[place];
-    open.entries.clear();
-    open.at = 0;
+    m_free.pop_back();
+    m_openBytes += open->body.size();
+    m_heads.push({open->entries.front().logTime, place});
+    m_open[place] = std::move(open);
+  }
+
+  /// On the thread of `m_ahead`, which alone reads the files meanwhile.
+  void read(const ListedChunk& chunk, OpenChunk& open) const {
     const File& file = m_files[chunk.file];
     const McapChunkInfo& info = file.reader.contents().chunks[chunk.index];
     const auto isWanted = [&](std::uint16_t channel) {
       const std::size_t topic = topicOf(file, channel);
       return topic == noTopic || m_topics.isWanted(topic);
     };
-    if (auto read = file.reader.readChunk(info, isWanted, open.body); !read) {
-      if (m_damage.size() < 100) {
-        addLoss(file.reader.contents().name, file.reader.lossOf(info, read.error().message),
-                m_damage);
-      }
+    if (auto done = file.reader.readChunk(info, isWanted, open.body); !done) {
+      addLoss(file.reader.contents().name, file.reader.lossOf(info, done.error().message),
+              open.damage);
       return;
     }
     takeEntries(file, open);
-    if (open.entries.empty()) return;
-    m_free.pop_back();
-    m_openBytes += open.body.size();
-    m_heads.push({open.entries.front().logTime, place});
   }
 
-  void takeEntries(const File& file, Open& open) {
+  void takeEntries(const File& file, OpenChunk& open) const {
     McapCursor cursor(open.body);
     for (auto kind = cursor.next(); kind != McapCursor::Kind::End; kind = cursor.next()) {
       if (kind != McapCursor::Kind::Message) continue;
       const McapMessage& message = cursor.message();
       const std::size_t topic = topicOf(file, message.channel);
       if (topic == noTopic) {
-        ++m_unknown;
+        ++open.unknown;
       } else if (m_topics.isWanted(topic)) {
         open.entries.push_back({message.logTime, topic, message.data});
       } else {
-        m_topics.passOver(topic);
+        ++open.passed[topic];
       }
     }
-    const auto byTime = [](const Entry& a, const Entry& b) { return a.logTime < b.logTime; };
+    const auto byTime = [](const ChunkEntry& a, const ChunkEntry& b) {
+      return a.logTime < b.logTime;
+    };
     if (!std::is_sorted(open.entries.begin(), open.entries.end(), byTime)) {
       std::stable_sort(open.entries.begin(), open.entries.end(), byTime);
     }
@@ -227,15 +243,17 @@ class McapRecording : public RecordingReader {
 
   std::vector<File> m_files;
   DecodedTopics m_topics;
-  std::vector<Chunk> m_chunks;  ///< by their start
+  std::vector<ListedChunk> m_chunks;  ///< by their start
   std::size_t m_nextChunk = 0;
-  std::vector<std::unique_ptr<Open>> m_open;
+  std::vector<std::unique_ptr<OpenChunk>> m_open;
   std::vector<std::size_t> m_free;  ///< of m_open
   std::priority_queue<Head> m_heads;
-  std::optional<std::size_t> m_finished;
+  std::optional<std::size_t> m_current;   ///< of m_open: the chunk that is read, not in m_heads
+  std::optional<std::size_t> m_finished;  ///< of m_open: the chunk that was read
   std::size_t m_openBytes = 0;
   std::uint64_t m_unknown = 0;
   std::vector<std::string> m_damage;
+  std::optional<ChunksAhead> m_ahead;  ///< last: its thread ends before the rest goes
 };
 
 }  // namespace
@@ -248,7 +266,7 @@ Result<std::unique_ptr<RecordingReader>> openMcapRecording(
     const std::vector<std::string>& files, const std::function<bool(double)>& progress) {
   auto recording = std::make_unique<McapRecording>();
   for (const std::string& file : files) TRY(recording->add(file, progress));
-  recording->sortChunks();
+  recording->begin();
   return recording;
 }
 

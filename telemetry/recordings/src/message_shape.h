@@ -37,11 +37,11 @@ struct DecodedMessage {
   std::optional<std::int64_t> stamp;
   std::uint64_t leftOut = 0;  ///< values beyond the limits
 
+  /// The shape stays until there is another.
   void clear() {
-    shape.reset();
     values.clear();
     texts.clear();
-    ownTexts.clear();
+    if (!ownTexts.empty()) ownTexts.clear();
     stamp.reset();
     leftOut = 0;
   }
@@ -189,6 +189,7 @@ class MessageShapes {
   /// returns false if the message is not what its schema says.
   template <class Walk>
   bool decode(DecodedMessage& to, Walk&& walk) {
+    to.clear();
     m_signature.clear();
     ValueOut values(to, m_signature);
     if (!walk(values)) return false;

@@ -11,10 +11,10 @@
 #include <deque>
 #include <limits>
 
+#include <base/base64.h>
 #include <base/try.h>
 #include <telemetry/recordings/decoded_topics.h>
-#include <telemetry/wire/base64.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include "message_shape.h"
 #include "recording_formats.h"

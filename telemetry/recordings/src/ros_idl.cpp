@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads OMG IDL 4.2 (formal/18-01-05) as far as rosidl and DDS use it for messages: modules,
-// structs, typedefs, enumerations, constants, sequences, arrays and annotations. No unions.
+// structs, unions, typedefs, enumerations, constants, sequences, arrays and annotations.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,77 +9,12 @@
 
 #include <base/try.h>
 
+#include "idl_tokens.h"
 #include "message_decoder.h"
 #include "ros_types.h"
 
 namespace pitchboard::telemetry {
 namespace {
-
-struct IdlToken {
-  std::string_view text;  ///< empty: the end
-  int line = 1;
-  bool isText = false;
-};
-
-/// Splits a text; comments and lines of the preprocessor are left out.
-class IdlTokens {
- public:
-  explicit IdlTokens(std::string_view text) : m_rest(text) { take(); }
-  const IdlToken& look() const { return m_next; }
-  IdlToken take() {
-    const IdlToken taken = m_next;
-    skip();
-    m_next = {{}, m_line, false};
-    if (m_rest.empty()) return taken;
-    std::size_t length = 1;
-    if (m_rest.front() == '"') {
-      while (length < m_rest.size() && m_rest[length] != '"') {
-        length += m_rest[length] == '\\' ? 2 : 1;
-      }
-      length = std::min(length + 1, m_rest.size());
-      m_next.isText = true;
-    } else if (isWord(m_rest.front())) {
-      while (length < m_rest.size() && isWord(m_rest[length])) ++length;
-    } else if (m_rest.starts_with("::")) {
-      length = 2;
-    }
-    m_next.text = m_rest.substr(0, length);
-    m_line += static_cast<int>(std::ranges::count(m_next.text, '\n'));
-    m_rest.remove_prefix(length);
-    return taken;
-  }
-
- private:
-  static bool isWord(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.';
-  }
-  void passTo(std::string_view mark) {
-    const auto at = m_rest.find(mark);
-    const std::size_t length = at == m_rest.npos ? m_rest.size() : at + mark.size();
-    m_line += static_cast<int>(std::ranges::count(m_rest.substr(0, length), '\n'));
-    m_rest.remove_prefix(length);
-  }
-  void skip() {
-    for (;;) {
-      if (m_rest.starts_with("//") || m_rest.starts_with('#') || m_rest.starts_with("===")) {
-        passTo("\n");
-      } else if (m_rest.starts_with("IDL: ")) {  // the name of a part, as rosbag2 writes it
-        passTo("\n");
-      } else if (m_rest.starts_with("/*")) {
-        passTo("*/");
-      } else if (!m_rest.empty() && static_cast<unsigned char>(m_rest.front()) <= ' ') {
-        m_line += m_rest.front() == '\n' ? 1 : 0;
-        m_rest.remove_prefix(1);
-      } else {
-        return;
-      }
-    }
-  }
-  std::string_view m_rest;
-  int m_line = 1;
-  IdlToken m_next;
-};
 
 /// A type as it is written. Names are looked up when everything is known.
 struct IdlType {
@@ -101,6 +36,8 @@ struct IdlMember {
   std::string name;
   IdlType type;
   IdlAnnotations annotations;
+  std::vector<std::string> cases{};  ///< of a union
+  bool isDefaultCase = false;
 };
 
 struct IdlStruct {
@@ -108,6 +45,7 @@ struct IdlStruct {
   std::vector<IdlMember> members;
   Extensibility extensibility = Extensibility::Unsaid;
   int line = 1;
+  bool isUnion = false;  ///< the first member says which of the others there is
 };
 
 struct IdlName {
@@ -208,6 +146,8 @@ class Idl {
       if (expect("}")) (void)accept(";");
     } else if (token.text == "struct") {
       readStruct(scope, annotations, token.line);
+    } else if (token.text == "union") {
+      readUnion(scope, annotations, token.line);
     } else if (token.text == "typedef") {
       IdlType type = readType(scope);
       const std::string name = word();
@@ -342,6 +282,72 @@ class Idl {
     m_structs[name] = std::move(made);
   }
 
+  void readUnion(const std::string& scope, const IdlAnnotations& annotations, int line) {
+    const std::string name = joined(scope, word());
+    if (accept(";")) return;  // it is defined later
+    IdlStruct made;
+    made.scope = scope;
+    made.line = line;
+    made.isUnion = true;
+    made.extensibility = annotations.extensibility;
+    if (made.extensibility == Extensibility::Mutable) {
+      return fail("The union \"" + name + "\" is mutable, which is not supported.", line);
+    }
+    if (!expect("switch") || !expect("(")) return;
+    (void)readAnnotations();
+    made.members.push_back({"discriminator", readType(scope), {}});
+    if (!expect(")") || !expect("{")) return;
+    while (!m_error && !accept("}")) {
+      if (m_tokens.look().text.empty() || ++m_count > maxRosFields) {
+        return fail("The union \"" + name + "\" does not end.", line);
+      }
+      IdlMember member;
+      while (!m_error && (m_tokens.look().text == "case" || m_tokens.look().text == "default")) {
+        if (m_tokens.take().text == "default")
+          member.isDefaultCase = true;
+        else
+          member.cases.push_back(readCase());
+        expect(":");
+      }
+      member.annotations = readAnnotations();
+      member.type = readType(scope);
+      member.name = word();
+      readDimensions(member.type);
+      expect(";");
+      made.members.push_back(std::move(member));
+    }
+    (void)accept(";");
+    m_structs[name] = std::move(made);
+  }
+
+  /// A number, a name, or a character as its code.
+  std::string readCase() {
+    if (accept("-")) return "-" + word();
+    if (!accept("'")) return readScopedName();
+    const std::string character = word();
+    expect("'");
+    return character.empty() ? character
+                             : std::to_string(static_cast<unsigned char>(character.front()));
+  }
+
+  std::int64_t caseOf(const std::string& text, const IdlMember& member, const RosField& choice) {
+    if (text == "TRUE" || text == "FALSE") return text == "TRUE" ? 1 : 0;
+    const bool isNegative = text.starts_with('-');
+    if (const auto number = numberOf(std::string_view(text).substr(isNegative ? 1 : 0))) {
+      return isNegative ? -std::int64_t{*number} : std::int64_t{*number};
+    }
+    const auto last = text.rfind("::");
+    const std::string plain = last == text.npos ? text : text.substr(last + 2);
+    for (const auto& [code, label] : choice.labels) {
+      if (label == plain) return code;
+    }
+    const std::string constant = lookUp(m_constants, member.type.scope, text);
+    const auto number =
+        constant.empty() ? std::nullopt : numberOf(m_constants.find(constant)->second);
+    if (!number) fail("\"" + text.substr(0, 60) + "\" is not a case.", member.type.line);
+    return number.value_or(0);
+  }
+
   void readEnumeration(const std::string& scope) {
     const std::string name = joined(scope, word());
     FieldLabels labels;
@@ -401,7 +407,7 @@ class Idl {
     for (auto at = shown.find("::"); at != shown.npos; at = shown.find("::")) {
       shown.replace(at, 2, "/");
     }
-    m_types.structs.push_back({shortType(shown), {}, from.extensibility});
+    m_types.structs.push_back({shortType(shown), {}, from.extensibility, from.isUnion});
     if (depth > 2 * maxRecordedDepth) {
       fail("The types are nested too deep.", from.line);
       return index;
@@ -425,11 +431,23 @@ class Idl {
       field.id = id = member.annotations.id.value_or(id);
       ++id;
       resolve(member.type, field, depth);
+      if (from.isUnion && fields.empty() && !isChoice(field)) {
+        fail("The discriminator of \"" + name + "\" is not a whole number.", from.line);
+      }
+      field.isDefaultCase = member.isDefaultCase;
+      for (const std::string& text : member.cases) {
+        field.cases.push_back(caseOf(text, member, fields.front()));
+      }
       fields.push_back(std::move(field));
       if (++m_count > maxRosFields) fail("The schema has too many fields.", from.line);
     }
     m_types.structs[index].fields = std::move(fields);
     return index;
+  }
+
+  static bool isChoice(const RosField& field) {
+    return field.list == RosList::One &&
+           (field.kind <= RosKind::UInt64 || field.kind == RosKind::Enumeration);
   }
 
   /// Puts a list into a struct of its own, so that lists can be in lists.

@@ -55,12 +55,15 @@ struct RosField {
   bool isStamp = false;
   std::string unit{};
   FieldLabels labels{};
+  std::vector<std::int64_t> cases{};  ///< of a union: values of its first field for this one
+  bool isDefaultCase = false;         ///< of a union: for all other values
 };
 
 struct RosStruct {
   std::string name;  ///< "geometry_msgs/Pose"
   std::vector<RosField> fields;
   Extensibility extensibility = Extensibility::Unsaid;
+  bool isUnion = false;  ///< the first field says which of the others there is
 };
 
 struct RosTypes {

@@ -27,6 +27,7 @@ void eachRobotFact(Facts& robot, Visit visit) {
   visit("order", robot.order);
   visit("place", robot.place);
   visit("profile", robot.profile);
+  visit("programs", robot.programs);
   visit("radius", robot.radius_m);
   visit("rate", robot.rate_hz);
   visit("recorded", robot.recordedBy);

@@ -237,12 +237,14 @@ class Copy {
   }
 
   /// The bookmarks beside the file become events of the new one, behind those of the same time.
+  /// Drawn notes stay beside it: copyDrawnNotes().
   void addNotesBefore(std::uint64_t logTime) {
     const auto& notes = m_session.addedNotes();
     for (; m_selection.messages && m_nextNote < notes.size(); ++m_nextNote) {
       const SessionEvent& event = notes[m_nextNote];
       const std::uint64_t at = m_session.logTime(event.time);
       if (at >= logTime) return;
+      if (event.kind == session::noteKind) continue;
       if (event.time < m_selection.range.begin || event.time > m_selection.range.end) continue;
       if (m_noteChannel == 0) m_noteChannel = eventChannel();
       const std::string json = session::toJson(event);

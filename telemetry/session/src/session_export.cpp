@@ -16,7 +16,9 @@
 #include <base/byte_sizes.h>
 #include <base/csv_field.h>
 #include <base/new_file.h>
+#include <base/try.h>
 #include <telemetry/series/group_order.h>
+#include <telemetry/session/drawn_notes.h>
 
 #include "export_even.h"
 #include "export_selection.h"
@@ -581,6 +583,9 @@ Result<ExportReport> exportFile(const SessionReader& session, ExportFormat forma
   }
   if (!report) return report;
   if (auto named = target->commit(); !named) return tl::unexpected(named.error());
+  if (format == ExportFormat::Mcap && selection.messages) {
+    TRY(copyDrawnNotes(session.file().contents().name, path, selection.range));
+  }
   return report;
 }
 

@@ -15,6 +15,7 @@
 
 #include <base/result.h>
 #include <telemetry/mcap/mcap_records.h>
+#include <telemetry/session/row_topic.h>
 #include <telemetry/session/session_types.h>
 
 namespace pitchboard::telemetry::session {
@@ -33,6 +34,7 @@ extern const std::array<StreamInfo, sessionStreamCount> streams;
 
 /// SessionEvent::kind of what a person marked.
 inline constexpr std::string_view bookmarkKind = "bookmark";
+inline constexpr std::string_view noteKind = "note";  ///< kept in the file beside the recording
 
 /// Returns the stream of a channel; empty for rows and for unknown channels.
 std::optional<SessionStream> streamOf(const McapChannel& channel);
@@ -62,7 +64,6 @@ std::optional<GroupInfo> groupFromJson(std::string_view json);
 /// different: "VISION_BALL_DIST" is "vision_ball_dist". None is "source_time", the time's own
 /// field.
 std::vector<std::string> fieldNames(const GroupInfo& group);
-std::string rowTopic(const GroupInfo& group);
 std::string rowSchemaName(const GroupInfo& group);
 std::string rowSchema(const GroupInfo& group);
 
@@ -86,6 +87,12 @@ struct RowLayout {
 
   RowLayout() = default;
   explicit RowLayout(const GroupInfo& group);
+  /// Returns whether the bytes of a row are its time and then its values, as they are.
+  bool isCopied(const RowView& row) const {
+    return words == 0 && singles.empty() && values > 0 && row.values.size() == values;
+  }
+  /// The bytes in front of the values then.
+  static std::array<char, wordsAt> headOf(const RowView& row);
   /// `to` has `size` bytes; a row that is too short is filled up with zeros. Singles are rounded.
   void write(char* to, const RowView& row) const;
   /// False when the bytes are not a row of this layout. `words` and `values` are reused.

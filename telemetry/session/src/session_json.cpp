@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include <base/base64.h>
+#include <base/lenient_json.h>
+#include <telemetry/formats/meanings.h>
 #include <telemetry/series/group_attributes.h>
-#include <telemetry/wire/base64.h>
-#include <telemetry/wire/lenient_json.h>
-#include <telemetry/wire/meanings.h>
 
 #include "session_format.h"
 

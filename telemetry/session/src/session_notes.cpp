@@ -3,14 +3,16 @@
 
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <mutex>
 #include <optional>
 
 #include <base/file_target.h>
+#include <base/lenient_json.h>
 #include <base/read_file.h>
 #include <base/try.h>
 #include <telemetry/session/session_videos.h>
-#include <telemetry/wire/lenient_json.h>
+
+#include "notes_file.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -20,29 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t maxNotesBytes = std::size_t{8} << 20, maxNotes = 20'000, maxVideos = 64,
                       maxAnchors = 2, maxLandmarks = 4;
-
-/// The whole file, so that whoever changes a part of it keeps the rest.
-Result<Json> readNotesFile(const std::string& session) {
-  const std::string path = sessionNotesPath(session);
-  const auto bytes = readFile(path, maxNotesBytes, "The file with the bookmarks");
-  if (!bytes && bytes.error().code == ErrorCode::NotFound) {
-    return Json{{"version", 1}, {"bookmarks", Json::array()}};
-  }
-  if (!bytes) return tl::unexpected(bytes.error());
-  Json json = lenient::parsed<Json>(*bytes);
-  const Json* bookmarks = json.is_object() ? lenient::member(json, "bookmarks") : nullptr;
-  if (bookmarks == nullptr || !bookmarks->is_array()) {
-    return failure(ErrorCode::ParseError,
-                   "This file has no bookmarks that can be read. Repair or remove it.", path);
-  }
-  return json;
-}
-
-Result<void> writeNotesFile(const std::string& session, const Json& json) {
-  return writeFile(sessionNotesPath(session),
-                   json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
-                   IfExists::Replace);
-}
 
 SessionNotes notesIn(const Json& json) {
   SessionNotes notes;
@@ -117,6 +96,34 @@ Json jsonOf(const fs::path& folder, const SessionVideo& video) {
 
 }  // namespace
 
+Result<Json> readNotesFile(const std::string& session) {
+  const std::string path = sessionNotesPath(session);
+  const auto bytes = readFile(path, maxNotesBytes, "The file with the notes");
+  if (!bytes && bytes.error().code == ErrorCode::NotFound) {
+    return Json{{"version", 1}, {"bookmarks", Json::array()}};
+  }
+  if (!bytes) return tl::unexpected(bytes.error());
+  Json json = lenient::parsed<Json>(*bytes);
+  const Json* bookmarks = json.is_object() ? lenient::member(json, "bookmarks") : nullptr;
+  if (bookmarks == nullptr || !bookmarks->is_array()) {
+    return failure(ErrorCode::ParseError,
+                   "This file has no bookmarks that can be read. Repair or remove it.", path);
+  }
+  return json;
+}
+
+Result<void> changeNotesFile(const std::string& session, const std::function<void(Json&)>& change) {
+  static std::mutex oneAtATime;
+  const std::lock_guard lock(oneAtATime);
+  const Json before = TRY(readNotesFile(session));
+  Json after = before;
+  change(after);
+  if (after == before) return {};
+  return writeFile(sessionNotesPath(session),
+                   after.dump(2, ' ', false, Json::error_handler_t::replace) + "\n",
+                   IfExists::Replace);
+}
+
 std::string sessionNotesPath(const std::string& session) {
   return session + ".notes.json";
 }
@@ -126,12 +133,12 @@ Result<SessionNotes> readSessionNotes(const std::string& session) {
 }
 
 Result<void> addSessionNote(const std::string& session, double time, const std::string& note) {
-  Json json = TRY(readNotesFile(session));
-  SessionNotes notes = notesIn(json);
-  notes[time] = note;
-  Json& bookmarks = json["bookmarks"] = Json::array();
-  for (const auto& [at, text] : notes) bookmarks.push_back({{"time", at}, {"note", text}});
-  return writeNotesFile(session, json);
+  return changeNotesFile(session, [&](Json& json) {
+    SessionNotes notes = notesIn(json);
+    notes[time] = note;
+    Json& bookmarks = json["bookmarks"] = Json::array();
+    for (const auto& [at, text] : notes) bookmarks.push_back({{"time", at}, {"note", text}});
+  });
 }
 
 Result<VideoAlignment> alignmentOf(std::span<const VideoAnchor> anchors) {
@@ -161,10 +168,10 @@ Result<std::vector<SessionVideo>> readSessionVideos(const std::string& session) 
 }
 
 Result<void> writeSessionVideos(const std::string& session, std::span<const SessionVideo> videos) {
-  Json json = TRY(readNotesFile(session));
-  Json& list = json["videos"] = Json::array();
-  for (const SessionVideo& video : videos) list.push_back(jsonOf(folderOf(session), video));
-  return writeNotesFile(session, json);
+  return changeNotesFile(session, [&](Json& json) {
+    Json& list = json["videos"] = Json::array();
+    for (const SessionVideo& video : videos) list.push_back(jsonOf(folderOf(session), video));
+  });
 }
 
 }  // namespace pitchboard::telemetry

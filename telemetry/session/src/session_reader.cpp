@@ -4,6 +4,7 @@
 
 #include <telemetry/mcap/mcap_cursor.h>
 #include <telemetry/series/robot_names.h>
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/session_notes.h>
 
 #include "session_loss.h"
@@ -30,15 +31,24 @@ Result<SessionReader> SessionReader::open(const std::string& path,
 }
 
 void SessionReader::Impl::takeNotes(const std::string& path) {
-  const auto added = readSessionNotes(path);
-  if (!added) return note("The bookmarks are not shown: " + added.error().text());
-  for (const auto& [time, text] : *added) {
+  const auto add = [this](double time, std::string_view kind, const std::string& text) {
     SessionEvent& event = addedNotes.emplace_back();
     event.time = time;
-    event.kind = session::bookmarkKind;
+    event.kind = kind;
     event.text = text;
     event.facts.emplace().detail = text;
+  };
+  const auto added = readSessionNotes(path);
+  if (!added) return note("The bookmarks are not shown: " + added.error().text());
+  for (const auto& [time, text] : *added) add(time, session::bookmarkKind, text);
+  const auto drawn = readDrawnNotes(path);
+  if (!drawn) return note("The drawn notes are not shown: " + drawn.error().text());
+  for (const DrawnNote& one : drawn->notes) add(one.time, session::noteKind, labelOf(one));
+  if (drawn->unreadable > 0) {
+    note("Drawn notes that cannot be read are not shown: " + std::to_string(drawn->unreadable) +
+         " in " + sessionNotesPath(path) + ". They stay in the file.");
   }
+  std::ranges::stable_sort(addedNotes, {}, &SessionEvent::time);
 }
 
 Result<SessionReader> SessionReader::openBytes(std::string bytes,

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <base/file_target.h>
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/session_reader.h>
 
 #include "session_copy.h"
@@ -62,6 +63,7 @@ class Repair {
     }
     auto done = verify(target->partPath(), copied->channels);
     if (done) done = target->commit();
+    if (done) done = copyDrawnNotes(m_from, m_to, {-1e18, 1e18});
     if (!done) return tl::unexpected(done.error());
     m_report.bytes = copied->bytes;
     return m_report;

@@ -98,11 +98,6 @@ std::vector<std::string> fieldNames(const GroupInfo& group) {
   return out;
 }
 
-std::string rowTopic(const GroupInfo& group) {
-  const RobotFacts& facts = factsOf(group);
-  return (facts.slot > 0 || facts.live ? "/robots/" : "/") + plainName(group.name) + "/row";
-}
-
 std::string rowSchemaName(const GroupInfo& group) {
   // A message's name has letters and digits only and begins with a capital.
   std::string name;
@@ -140,6 +135,13 @@ RowLayout::RowLayout(const GroupInfo& group) {
   const bool odd = (words + singles.size()) % 2 == 1;
   doublesAt = singlesAt + singles.size() * 4 + (odd && !doubles.empty() ? 4 : 0);
   size = doublesAt + doubles.size() * 8;
+}
+
+std::array<char, RowLayout::wordsAt> RowLayout::headOf(const RowView& row) {
+  std::array<char, wordsAt> head{};
+  std::ranges::copy(littleEndianCdr, head.begin());
+  std::memcpy(head.data() + timeAt, &row.time, 8);
+  return head;
 }
 
 void RowLayout::write(char* to, const RowView& row) const {
@@ -199,3 +201,13 @@ std::uint64_t nanoseconds(WallTime start, double seconds) {
 }
 
 }  // namespace pitchboard::telemetry::session
+
+namespace pitchboard::telemetry {
+
+std::string rowTopic(const GroupInfo& group) {
+  const RobotFacts& facts = factsOf(group);
+  return (facts.slot > 0 || facts.live ? "/robots/" : "/") + session::plainName(group.name) +
+         "/row";
+}
+
+}  // namespace pitchboard::telemetry

@@ -3,24 +3,10 @@
 #include <telemetry/session/session_writer.h>
 
 #include <algorithm>
-#include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <filesystem>
-#include <functional>
-#include <limits>
-#include <map>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <utility>
-#include <vector>
 
-#include <telemetry/mcap/mcap_writer.h>
-
-#include "session_format.h"
-#include "session_summary.h"
-#include "write_rate.h"
+#include "session_writer_impl.h"
 
 namespace pitchboard::telemetry {
 namespace {
@@ -46,13 +32,6 @@ bool isContinued(const std::vector<ColumnInfo>& before, const std::vector<Column
                      [](const ColumnInfo& column) { return column.type == ColumnType::Float64; });
 }
 
-/// Texts that were received can be very many, and a newer channel describes them all.
-void forgetTexts(std::vector<ColumnInfo>& columns) {
-  for (ColumnInfo& column : columns) {
-    if (column.kind == ColumnKind::Text) column.labels.clear();
-  }
-}
-
 std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
   std::error_code problem;
   const auto folder = std::filesystem::absolute(path, problem).parent_path();
@@ -61,117 +40,6 @@ std::optional<std::uint64_t> freeSpaceBeside(const std::string& path) {
 }
 
 }  // namespace
-
-struct SessionWriter::Impl {
-  using Clock = std::chrono::steady_clock;
-  static constexpr std::uint16_t maxChannels = 60'000;
-  using GroupFacts = session::GroupFacts;
-  struct Attachment {
-    std::uint64_t time;
-    std::string name, mediaType, data;
-  };
-
-  std::string path;
-  SessionInfo info;
-  SessionWriterOptions options;
-  std::optional<McapWriter> file;  ///< of the writing thread once it runs
-  std::thread thread;
-
-  /// A channel with rows.
-  struct RowChannel {
-    std::vector<ColumnInfo> columns;
-    session::RowLayout layout;
-    std::string topic;
-    std::uint16_t channel = 0;  ///< 0: there are too many, and its rows are dropped
-    std::uint32_t sequence = 0;
-    std::uint64_t lastLog = 0;
-    SummaryBuilder summary;
-    std::uint16_t summaryChannel = 0;  ///< 0: there is no part yet
-    std::uint32_t summaries = 0;
-  };
-  struct HeldRow {
-    double time;
-    std::uint64_t log, publish;
-    std::vector<std::uint32_t> words;
-    std::vector<double> values;
-  };
-  /// A group writes each of its rows into one of its channels. A channel that describes many
-  /// columns is as large as thousands of rows; one for each new column or text would be most of the
-  /// file. Rows with new columns therefore wait until a channel for all of them is due, and new
-  /// texts are described from time to time.
-  struct Group {
-    GroupInfo info;                      ///< as its rows come now
-    std::vector<std::size_t> channels;   ///< of `rowChannels`
-    std::optional<std::size_t> takes{};  ///< the channel with the columns of `info`
-    bool isDescribed = false;            ///< that channel also has the labels of `info`
-    std::optional<std::size_t> last{};   ///< the channel of the last row
-    std::uint64_t lastLog = 0;
-    double openedAt = -std::numeric_limits<double>::infinity();  ///< s; its newest channel
-    double wait = 0.0;                                           ///< s; until the next channel
-    std::vector<HeldRow> held{};  ///< their columns are those of `info`, or its first ones
-    Clock::time_point heldAt{};
-  };
-  static std::size_t bytesOf(const HeldRow& row) {
-    return sizeof row + 4 * row.words.size() + 8 * row.values.size();
-  }
-  static constexpr double minWait = 1.0, maxHold = 8.0, maxWait = 64.0;  // s
-
-  mutable std::mutex mutex;  ///< of everything below
-  std::condition_variable wake, room;
-  std::deque<McapChunk> full;
-  McapChunk current;
-  McapChunk sparse;  ///< events and log lines: who lists them need not read the rows
-  std::vector<McapChunk> spare;
-  std::deque<Attachment> attachments;
-  std::size_t waiting = 0;  ///< bytes in `full`, and what the writing thread has in hand
-  bool stop = false;
-  std::vector<RowChannel> rowChannels;
-  std::vector<Group> groups;
-  std::map<std::string, std::size_t> groupsByKey;
-  std::size_t heldBytes = 0;
-  std::map<std::string, GroupFacts> facts;     ///< of groups by their ids, as they are known now
-  std::map<std::string, GroupFacts> newFacts;  ///< those of them that are not in the file yet
-  struct Copied {
-    std::optional<std::size_t> rows{};  ///< of `rowChannels`
-    std::size_t group = 0;              ///< with rows
-    bool isSparse = false;
-  };
-  std::vector<Copied> copied;  ///< channels of another file, by their number in this one
-  struct Stream {
-    std::uint16_t channel = 0;
-    std::uint32_t sequence = 0;
-  };
-  std::array<Stream, sessionStreamCount> streams{};
-  std::uint16_t channels = 0, schemas = 0;
-  std::uint64_t shift = 0;  ///< ns; how far the file's times are ahead of the source's
-  std::optional<std::uint64_t> firstLog;
-  std::uint64_t lastLog = 0;
-  SessionStatus state;
-  std::optional<Clock::time_point> writingSince;  ///< the writing thread has not come back since
-  bool ended = false;                             ///< `file` is not to be asked any more
-  std::optional<Error> error;
-
-  void run();
-  void write(std::deque<McapChunk>& chunks, std::deque<Attachment>& files,
-             const std::map<std::string, GroupFacts>& described);
-  void noteFacts(const GroupInfo& info);
-  bool hasSpace(std::unique_lock<std::mutex>& lock, std::size_t bytes);
-  void fail(const Error& why);
-  void closeCurrent();
-  bool isEmpty() const { return current.empty() && sparse.empty(); }
-  std::size_t openBytes() const { return current.bytes() + sparse.bytes(); }
-  std::size_t indexOf(const GroupInfo& of);
-  void openChannel(Group& group, double time);
-  void openWhere(const std::function<bool(const Group&)>& wanted);
-  bool isDue(const Group& group, double time) const;
-  void hold(Group& group, std::uint64_t log, std::uint64_t publish, const RowView& row);
-  void write(Group& group, std::uint64_t log, std::uint64_t publish, const RowView& row);
-  std::uint16_t addSchema(McapChunk& to, McapSchema schema);
-  std::uint16_t addChannel(McapChunk& to, McapChannel channel);
-  void summarize(Group& group, std::size_t channel, std::uint64_t log, const RowView& row);
-  void keep(RowChannel& channel, const SummaryPart& part);
-  void note(std::uint64_t log);
-};
 
 SessionWriter::SessionWriter(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
 
@@ -529,151 +397,6 @@ void SessionWriter::Impl::closeCurrent() {
       spare.pop_back();
     }
   }
-}
-
-/// Needs the lock, as everything below.
-std::size_t SessionWriter::Impl::indexOf(const GroupInfo& of) {
-  const std::string key = of.id.empty() ? "name " + of.name : "id " + of.id;
-  const auto [known, isNew] = groupsByKey.try_emplace(key, groups.size());
-  if (isNew) groups.emplace_back();
-  return known->second;
-}
-
-/// Makes a channel for what `group.info` says now, and writes the rows that wait for it.
-void SessionWriter::Impl::openChannel(Group& group, double time) {
-  const GroupInfo& of = group.info;
-  // Two groups may have had one name, one after the other.
-  std::string suffix;
-  const auto isTaken = [&](const RowChannel& one) {
-    return one.topic == session::rowTopic(of) + suffix;
-  };
-  for (int i = 2; std::ranges::any_of(rowChannels, isTaken); ++i) suffix = std::to_string(i);
-  RowChannel channel{.columns = of.columns,
-                     .layout = session::RowLayout(of),
-                     .topic = session::rowTopic(of) + suffix,
-                     .summary = SummaryBuilder(of)};
-  if (!stop && !error && channels < maxChannels) {
-    const std::uint16_t schema = addSchema(
-        current, {0, session::rowSchemaName(of) + suffix, "ros2msg", session::rowSchema(of)});
-    channel.channel =
-        addChannel(current, {0,
-                             schema,
-                             channel.topic,
-                             "cdr",
-                             {{std::string(session::groupKey), session::groupToJson(of)}}});
-  }
-  for (const std::size_t before : group.channels) forgetTexts(rowChannels[before].columns);
-  group.takes = rowChannels.size();
-  group.isDescribed = true;
-  group.channels.push_back(rowChannels.size());
-  rowChannels.push_back(std::move(channel));
-  // Twice as long for columns that keep coming, and soon for a change after a calm time.
-  const bool isCalm = !(time - group.openedAt < 2.0 * group.wait);
-  group.wait = isCalm ? minWait : std::min(2.0 * group.wait, maxWait);
-  group.openedAt = time;
-  const std::vector<HeldRow> held = std::exchange(group.held, {});
-  const std::size_t values = rowChannels.back().layout.values;
-  for (const HeldRow& row : held) {
-    heldBytes -= bytesOf(row);
-    std::vector<double> all = row.values;
-    all.resize(values, std::numeric_limits<double>::quiet_NaN());
-    write(group, row.log, row.publish, {row.time, row.words, all});
-  }
-}
-
-void SessionWriter::Impl::openWhere(const std::function<bool(const Group&)>& wanted) {
-  if (stop || error) return;
-  for (Group& group : groups) {
-    if (!group.channels.empty() && !group.isDescribed && wanted(group)) {
-      openChannel(group, group.openedAt + group.wait);
-    }
-  }
-}
-
-bool SessionWriter::Impl::isDue(const Group& group, double time) const {
-  const double wait = group.takes ? group.wait : std::min(group.wait, maxHold);
-  const bool isLate = time < group.openedAt || time >= group.openedAt + wait;
-  return isLate || (!group.held.empty() && heldBytes > options.queueBytes / 4);
-}
-
-void SessionWriter::Impl::hold(Group& group, std::uint64_t log, std::uint64_t publish,
-                               const RowView& row) {
-  group.held.push_back({row.time,
-                        log,
-                        publish,
-                        {row.words.begin(), row.words.end()},
-                        {row.values.begin(), row.values.end()}});
-  group.heldAt = Clock::now();
-  heldBytes += bytesOf(group.held.back());
-}
-
-void SessionWriter::Impl::write(Group& group, std::uint64_t log, std::uint64_t publish,
-                                const RowView& row) {
-  RowChannel& to = rowChannels[*group.takes];
-  if (to.channel == 0) {
-    ++state.dropped;
-    return;
-  }
-  to.layout.write(current.addMessage(to.channel, to.sequence++, log, publish, to.layout.size), row);
-  summarize(group, *group.takes, log, row);
-}
-
-void SessionWriter::Impl::summarize(Group& group, std::size_t channel, std::uint64_t log,
-                                    const RowView& row) {
-  // Buckets of a group's channels do not overlap.
-  if (group.last && *group.last != channel) {
-    RowChannel& before = rowChannels[*group.last];
-    if (const auto part = before.summary.closeBucket()) keep(before, *part);
-  }
-  group.last = channel;
-  RowChannel& to = rowChannels[channel];
-  to.lastLog = log;
-  const auto start = static_cast<std::uint64_t>(info.start.time_since_epoch().count());
-  const double time = static_cast<double>(static_cast<std::int64_t>(log - start)) / 1e9;
-  if (const auto part = to.summary.add(time, row)) keep(to, *part);
-}
-
-/// A chunk of its own: who draws a whole day reads these chunks and no others.
-void SessionWriter::Impl::keep(RowChannel& of, const SummaryPart& part) {
-  McapChunk chunk;
-  if (of.summaryChannel == 0) {
-    of.summaryChannel = addChannel(chunk, {0,
-                                           0,
-                                           of.topic + "/summary",
-                                           std::string(session::summaryEncoding),
-                                           {{std::string(session::summaryKey), of.topic}}});
-    if (of.summaryChannel == 0) return;
-  }
-  // Behind its rows: a recording that breaks off has no summary of rows that it does not have.
-  closeCurrent();
-  const std::string bytes = session::summaryBytes(part);
-  chunk.add(McapMessage{of.summaryChannel, of.summaries++, of.lastLog, of.lastLog, bytes});
-  waiting += chunk.bytes();
-  full.push_back(std::move(chunk));
-  wake.notify_one();
-}
-
-std::uint16_t SessionWriter::Impl::addSchema(McapChunk& to, McapSchema schema) {
-  if (schemas >= maxChannels) return 0;
-  schema.id = ++schemas;
-  to.add(schema);
-  return schema.id;
-}
-
-std::uint16_t SessionWriter::Impl::addChannel(McapChunk& to, McapChannel channel) {
-  if (channels >= maxChannels) return 0;
-  channel.id = ++channels;
-  to.add(channel);
-  return channel.id;
-}
-
-void SessionWriter::Impl::note(std::uint64_t log) {
-  if (!firstLog) firstLog = log;
-  lastLog = std::max(lastLog, log);
-  state.seconds = static_cast<double>(lastLog - *firstLog) * 1e-9;
-  if (openBytes() < options.chunkBytes) return;
-  closeCurrent();
-  wake.notify_one();
 }
 
 }  // namespace pitchboard::telemetry

@@ -12,7 +12,7 @@
 
 #include <robotlink/frame/drawing_origin.h>
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 

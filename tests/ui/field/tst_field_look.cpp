@@ -16,7 +16,7 @@
 #include <map>
 
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
 #include <ui/base/theme.h>
 #include <ui/field/field_view.h>
 

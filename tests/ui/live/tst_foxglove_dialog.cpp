@@ -33,6 +33,43 @@ class TestFoxgloveDialog : public QObject {
   Q_OBJECT
 
  private slots:
+  void aMappingIsChosen() {
+    QTemporaryDir folder;
+    QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);
+    LiveController live;
+    live.setOptions(live_rig::options());
+    FoxgloveDialog dialog(&live, &settings, nullptr);
+    dialog.setAttribute(Qt::WA_DeleteOnClose, false);
+    dialog.show();
+    auto* address = dialog.findChild<QLineEdit*>(QStringLiteral("foxgloveAddress"));
+    auto* mapping = dialog.findChild<QLineEdit*>(QStringLiteral("foxgloveMapping"));
+    auto* problem = dialog.findChild<InPlaceMessage*>(QStringLiteral("foxgloveProblem"));
+    auto* map = dialog.findChild<QPushButton*>(QStringLiteral("foxgloveMapTopics"));
+    QStringList wanted;
+    connect(&dialog, &FoxgloveDialog::mappingWanted, this,
+            [&wanted](const QString& of, const QString& file) { wanted << of << file; });
+    QTest::mouseClick(map, Qt::LeftButton);
+    QVERIFY(problem->isVisible() && wanted.isEmpty());  // of which bridge?
+    const QString file = folder.filePath(QStringLiteral("team.json"));
+    address->setText(QStringLiteral("ws://robot3:8765"));
+    mapping->setText(file);
+    QVERIFY(!dialog.add());  // there is no such file
+    QVERIFY2(problem->text().contains(QStringLiteral("team.json")), qPrintable(problem->text()));
+    QFile made(file);
+    QVERIFY(made.open(QIODevice::WriteOnly));
+    made.write("{\"mapping\": 1}");
+    made.close();
+    QVERIFY(dialog.add());
+    QCOMPARE(live.options().foxglove[0].mappingFile, file.toStdString());
+    QTest::mouseClick(map, Qt::LeftButton);
+    QCOMPARE(wanted, (QStringList{QStringLiteral("ws://robot3:8765"), file}));
+    const QString other = folder.filePath(QStringLiteral("other.json"));
+    QVERIFY(QFile::copy(file, other));
+    dialog.setMapping(QStringLiteral("ws://robot3:8765"), other);
+    QCOMPARE(live.options().foxglove[0].mappingFile, other.toStdString());
+    QCOMPARE(mapping->text(), other);
+  }
+
   void aBridgeIsAddedAndRemoved() {
     QTemporaryDir folder;
     QSettings settings(folder.filePath(QStringLiteral("s.ini")), QSettings::IniFormat);

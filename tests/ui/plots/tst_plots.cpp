@@ -53,9 +53,61 @@ class TestPlots : public QObject {
     QVERIFY(chart->curves()[0].color() != chart->curves()[1].color());
     dropOn(s.page(), {"B1/NOISY"}, QPoint(100, s.page()->height() - 3));
     QCOMPARE(s.page()->panes().size(), 2);
-    // Twice the same is one curve.
-    dropOn(s.page(), {"B1/ANGLE"}, s.middleOf(chart));
+  }
+
+  // It looked as if the drop had missed.
+  void whatIsPlottedAlreadyStandsOutAndIsReported() {
+    Shown s;
+    auto* chart = qobject_cast<ChartPane*>(s.dropped({"B1/DIST"}));
+    QSignalSpy noted(s.dock.get(), &PlotsDock::noted);
+    const auto said = [&noted] {
+      return noted.isEmpty() ? QString() : noted.takeLast().front().toString();
+    };
+    const QImage before = chart->grab().toImage();
+    dropOn(s.page(), {"B1/DIST"}, s.middleOf(chart));
+    QCOMPARE(chart->curves().size(), std::size_t(1));
+    QCOMPARE(said(), QStringLiteral("DIST B1 is already plotted"));
+    QVERIFY(chart->isPointedOut(0) && chart->legend()->entries()[0].pointedOut);
+    QVERIFY(chart->grab().toImage() != before);
+    QTRY_VERIFY(!chart->isPointedOut(0) && !chart->legend()->entries()[0].pointedOut);
+    QCOMPARE(chart->grab().toImage(), before);
+    // While it is dragged, too.
+    const auto hintOver = [&](const QStringList& names) {
+      QMimeData data;
+      data.setData(variablesMimeType, names.join('\n').toUtf8());
+      QDragEnterEvent enter(s.middleOf(chart), Qt::CopyAction, &data, Qt::LeftButton, {});
+      QApplication::sendEvent(s.page(), &enter);
+      QDragMoveEvent move(s.middleOf(chart), Qt::CopyAction, &data, Qt::LeftButton, {});
+      QApplication::sendEvent(s.page(), &move);
+      const auto hint = s.page()->findChild<TimeLines*>()->hint();
+      return hint ? hint->text : QString();
+    };
+    QCOMPARE(hintOver({"B1/DIST"}), QStringLiteral("already in this plot"));
+    QCOMPARE(hintOver({"B1/DIST", "B1/ANGLE"}), QStringLiteral("add to this plot"));
+    // A new one of two is added, and only the other one is reported.
+    dropOn(s.page(), {"B1/DIST", "B1/ANGLE"}, s.middleOf(chart));
     QCOMPARE(chart->curves().size(), std::size_t(2));
+    QCOMPARE(said(), QStringLiteral("DIST B1 is already plotted"));
+    // One that was hidden is shown again.
+    chart->toggleCurve(0);
+    QVERIFY(chart->curves()[0].isHidden());
+    dropOn(s.page(), {"B1/DIST"}, s.middleOf(chart));
+    QVERIFY(!chart->curves()[0].isHidden());
+    // A double click in Variables, whichever plot has it.
+    dropOn(s.page(), {"B1/NOISY"}, QPoint(100, s.page()->height() - 3));
+    dropOn(s.page(), {"B1/ACTION"}, QPoint(100, s.page()->height() - 3));
+    QCOMPARE(s.page()->panes().size(), 3);
+    noted.clear();
+    s.target.plotVariables({"B1/DIST", "B1/ACTION"});
+    QCOMPARE(said(), QStringLiteral("2 variables are already plotted"));
+    QVERIFY(chart->isPointedOut(0));
+    QCOMPARE(s.page()->panes().size(), 3);
+    QCOMPARE(chart->curves().size(), std::size_t(2));
+    QCOMPARE(s.pane(1)->curves().size(), std::size_t(1));
+    // A plot of its own is what somebody wants who drops between two.
+    dropOn(s.page(), {"B1/DIST"}, QPoint(100, s.page()->height() - 3));
+    QCOMPARE(s.page()->panes().size(), 4);
+    QVERIFY(noted.isEmpty());
   }
 
   void otherDropsAreRefused() {

@@ -288,6 +288,16 @@ class TestProcessesDock : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(m_controller->frame()->inLockStep, 30'000);
   }
 
+  // Nobody is waited for where every program goes by its own clock.
+  void programsThatRunFreelyAreNotInLockStep() {
+    const QTemporaryDir folder;
+    open(realTimeRobot(folder));
+    QTRY_VERIFY_WITH_TIMEOUT(runs("decision"), 30'000);
+    QCOMPARE(m_controller->pace(), link::RobotsPace::LockStep);
+    QVERIFY(!m_controller->frame()->inLockStep);
+    QCOMPARE(m_controller->frame()->robots[0].programs, std::vector<std::string>{"sleep"});
+  }
+
   // The match goes on while its past is shown, and its processes with it.
   void beliefsAreAsGoodAfterLookingBack() {
     open(oneRobot());

@@ -171,6 +171,7 @@ class TestCardState : public QObject {
     const auto card = [&](CardTracker& tracker) {
       frame.robots[0].processList =
           std::make_shared<const std::vector<link::ProcessStatus>>(1, process);
+      frame.robots[0].programs = {process.program()};
       return tracker.update(frame, 0)[0];
     };
     CardTracker tracker;
@@ -192,6 +193,17 @@ class TestCardState : public QObject {
     // Programs without an interpreter are files themselves.
     process.command = {"../bin/walk", "a.py"};
     QVERIFY(card(tracker).subtitle.endsWith("walk"));
+  }
+
+  // Of a recording, which has no processes.
+  void aRecordedProgramIsNamedInsteadOfTheBehaviour() {
+    link::MatchFrame frame = frameOf(1);
+    frame.origin = link::FrameOrigin::Recorded;
+    link::RobotFrame& robot = frame.robots[0];
+    robot.behaviour = "striker";
+    QCOMPARE(subtitleOf(robot), QStringLiteral("Striker"));
+    robot.programs = {"chase.py", "walk"};
+    QCOMPARE(subtitleOf(robot), QStringLiteral("chase.py, walk"));
   }
 
   void aProgramThatCannotKeepUpShowsItsMissedCycles() {

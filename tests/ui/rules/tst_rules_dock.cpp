@@ -17,11 +17,13 @@
 
 #include <robotlink/scenario/scenario.h>
 #include <telemetry/query/moment_watch.h>
+#include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_writer.h>
 #include <ui/base/theme.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/rule_watch.h>
+#include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
 
 #include "../../support/program_run.h"
@@ -37,29 +39,16 @@ namespace {
 
 constexpr int patience_ms = 30'000;
 
-struct RulesPanel : studio_rig::Studio {
-  QDockWidget* dock = window.findChild<QDockWidget*>(QStringLiteral("rules"));
+struct RulesPanel : studio_rig::PanelStudio {
   RuleWatch* rules = window.findChild<RuleWatch*>();
   TimelineStrip* strip = window.findChild<TimelineStrip*>();
 
-  RulesPanel() {
-    dock->show();
-    dock->raise();
-  }
-  template <class Widget>
-  Widget* find(const char* name) const {
-    auto* found = dock->findChild<Widget*>(QLatin1String(name));
-    if (found == nullptr) qFatal("there is no %s", name);
-    return found;
-  }
+  RulesPanel() : PanelStudio("rules") {}
   QTableView* table() const { return find<QTableView>("rulesTable"); }
   QString problem() const { return find<QLabel>("inPlaceText")->text(); }
   QString state() const { return find<QLabel>("rulesState")->text(); }
   void replay(const QString& session) {
-    window.openSession(session);
-    QTRY_VERIFY_WITH_TIMEOUT(
-        window.shown()->source() == window.replay() && window.replay()->path() == session,
-        patience_ms);
+    open(session);
     QTRY_VERIFY_WITH_TIMEOUT(!rules->isRunning(), patience_ms);
   }
   /// "rule robot from until", sorted.
@@ -88,6 +77,24 @@ struct RulesPanel : studio_rig::Studio {
     }
     out.sort();
     return out;
+  }
+  /// The events of the timeline that are of rules, as the list above, and their sentences.
+  std::vector<link::MatchEvent> events() const {
+    std::vector<link::MatchEvent> out;
+    for (const link::MatchEvent& event : window.shown()->events()->events()) {
+      if (event.kind == link::MatchEventKind::RuleBroken) out.push_back(event);
+    }
+    return out;
+  }
+  bool listsEveryBeginning() const {
+    const auto all = events();
+    return all.size() == rules->broken().size() &&
+           std::ranges::all_of(rules->broken(), [&](const BrokenRule& one) {
+             return std::ranges::any_of(all, [&](const link::MatchEvent& event) {
+               return event.time == one.moment.range.begin && event.name == one.moment.robot &&
+                      event.value == static_cast<int>(rules->ruleOf(one).severity);
+             });
+           });
   }
   void playTo(std::uint64_t tick) {
     controller.runTo(tick);
@@ -148,6 +155,24 @@ class TestRulesDock : public QObject {
     QVERIFY2(s.problem().contains(QStringLiteral("unknown is not checked: No robot has the "
                                                  "variable NOSUCH")),
              qPrintable(s.problem()));
+    // Each is an event of its robot, with the severity: to be stepped to, and hidden.
+    QVERIFY(s.listsEveryBeginning());
+    const auto listed = s.events();
+    const auto late = std::ranges::find_if(listed, [](const link::MatchEvent& event) {
+      return sentenceOf(event) == "B1 broke a rule: It is late (error)";
+    });
+    QVERIFY(late != listed.end());
+    const link::RobotFrame* b1 = s.window.shown()->frame()->robot(late->robot);
+    QVERIFY(b1 != nullptr && b1->name == "B1");
+    EventFilter onlyRules;
+    for (const link::MatchEvent& event : s.window.shown()->events()->events()) {
+      if (event.kind != link::MatchEventKind::RuleBroken) onlyRules.hidden.insert(event.kind);
+    }
+    s.window.shown()->setFilter(onlyRules);
+    s.window.shown()->seek(late->time - 0.001);
+    QVERIFY(s.window.shown()->goToNextEvent());
+    QVERIFY(std::abs(s.window.shown()->time() - late->time) < 0.02);
+    s.window.shown()->setFilter({});
     // A row of the timeline.
     QVERIFY(s.strip->sizeHint().height() > height);
     const auto middleOf = [&s](double time) {
@@ -200,10 +225,24 @@ class TestRulesDock : public QObject {
     s.playTo(100);
     QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
     QCOMPARE(broke.count(), 0);  // notes are no alarms
+    QVERIFY(s.listsEveryBeginning() && !s.events().empty());
+    // Also while somebody looks back.
+    s.window.shown()->seek(1.0);
+    QVERIFY(s.window.shown()->isLookingBack());
+    const std::size_t before = s.events().size();
     QVERIFY(!frame->isVisible());
     s.playTo(150);
     QTRY_VERIFY_WITH_TIMEOUT(broke.count() > 0, patience_ms);
     QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    QVERIFY(s.window.shown()->isLookingBack());
+    QVERIFY(s.listsEveryBeginning() && s.events().size() > before);
+    s.window.shown()->goLive();
+    // What is saved of the match has no rules: who opens it has their own.
+    QVERIFY(s.window.findChild<SessionRecording*>()->recentPast(60.0)(path("recent.mcap")));
+    const auto saved = telemetry::SessionReader::open(path("recent.mcap").toStdString());
+    QVERIFY(std::ranges::none_of(saved->events(), [](const telemetry::SessionEvent& event) {
+      return event.kind == "rule";
+    }));
     const auto rulesBroken = [&broke] {
       int all = 0;
       for (const QList<QVariant>& one : broke) {
@@ -231,8 +270,10 @@ class TestRulesDock : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
     QVERIFY(std::ranges::all_of(
         s.rules->broken(), [](const BrokenRule& one) { return one.moment.range.begin < 3.0; }));
+    QVERIFY(s.listsEveryBeginning());
     // Without rules there is no row.
     s.rules->close();
+    QVERIFY(s.events().empty());
     QVERIFY(s.rules->broken().empty());
     QCOMPARE(s.strip->rulesRect(), QRect());
   }
@@ -275,6 +316,7 @@ class TestRulesDock : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(s.rules->broken().size(), RuleWatch::maxBroken, patience_ms);
     QVERIFY(std::abs(s.rules->broken().back().moment.range.begin - 2399.9) < 1e-6);
     QVERIFY2(s.state().contains(QStringLiteral("the newest ones")), qPrintable(s.state()));
+    QVERIFY(s.listsEveryBeginning());
     QVERIFY(!s.strip->grab().isNull());
   }
 };

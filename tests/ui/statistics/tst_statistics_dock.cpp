@@ -15,14 +15,15 @@
 #include <QPushButton>
 #include <QTabBar>
 #include <QTimer>
+#include <QToolButton>
 #include <cmath>
-#include <ctime>
 
 #include <robotlink/scenario/scenario.h>
 #include <telemetry/query/stretch_table.h>
 #include <ui/base/plot_target.h>
 #include <ui/base/theme.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/shown_moment.h>
@@ -30,6 +31,7 @@
 
 #include "../../support/program_run.h"
 #include "../../support/sanitized.h"
+#include "../event_loop_watchdog.h"
 #include "../studio_rig.h"
 #include "field_map.h"
 #include "line_charts.h"
@@ -45,29 +47,12 @@ namespace {
 
 constexpr int patience_ms = 30'000;
 
-struct Panel : studio_rig::Studio {
-  QDockWidget* dock = window.findChild<QDockWidget*>(QStringLiteral("statistics"));
-
-  Panel() {
-    dock->show();
-    dock->raise();
-  }
-  template <class Widget>
-  Widget* find(const char* name) const {
-    auto* found = dock->findChild<Widget*>(QLatin1String(name));
-    if (found == nullptr) qFatal("there is no %s", name);
-    return found;
-  }
+struct Panel : studio_rig::PanelStudio {
+  Panel() : PanelStudio("statistics") {}
   StatisticsTable* table() const { return find<StatisticsTable>("statisticsTable"); }
   StatisticsModel* model() const { return find<StatisticsModel>("statisticsModel"); }
   QString state() const { return find<QLabel>("statisticsState")->text(); }
   QString problem() const { return find<QLabel>("inPlaceText")->text(); }
-  void open(const QString& session) {
-    window.openSession(session);
-    QTRY_VERIFY_WITH_TIMEOUT(
-        window.shown()->source() == window.replay() && window.replay()->path() == session,
-        patience_ms);
-  }
   void type(const char* name, const QString& text) const {
     auto* box = find<QLineEdit>(name);
     box->setFocus();
@@ -145,30 +130,6 @@ void drop(QWidget* at, const QStringList& names) {
   QApplication::sendEvent(at, &dropped);
   QVERIFY(dropped.isAccepted());
 }
-
-/// The longest time that this thread worked without going back to its event loop.
-class BusyTurns : public QTimer {
- public:
-  BusyTurns() {
-    setInterval(1);
-    connect(this, &QTimer::timeout, this, [this] {
-      const double now = worked_ms();
-      m_longest = std::max(m_longest, now - m_last);
-      m_last = now;
-    });
-    m_last = worked_ms();
-    start();
-  }
-  double longest_ms() const { return m_longest; }
-
- private:
-  static double worked_ms() {
-    timespec time{};
-    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return double(time.tv_sec) * 1e3 + double(time.tv_nsec) / 1e6;
-  }
-  double m_last = 0.0, m_longest = 0.0;
-};
 
 }  // namespace
 
@@ -381,19 +342,58 @@ class TestStatisticsDock : public QObject {
   }
 
   void severalSessionsHaveTheirLines() {
+    const QString third = path("third.mcap");
+    const ProgramRun made = cli({"record", "--scenario", "match-3v3", "--noise", "realistic",
+                                 "--seed", "5", "--duration", "20", "-o", third});
+    QVERIFY2(made.exitCode == 0, made.err.constData());
     Panel s;
     s.open(m_match);
-    s.add(QStringLiteral("B1.TRUE_X"));
-    auto* compared = s.window.findChild<ComparedSession*>();
-    QVERIFY(compared);
-    compared->open(m_other);
-    QTRY_VERIFY_WITH_TIMEOUT(s.model()->rowCount() == 2, patience_ms);
+    s.add(QStringLiteral("BELIEF_ERROR"));
+    s.add(QStringLiteral("DECISION_ACTION_A"));
+    ComparedSessions* compared = s.window.compared();
+    compared->open({m_other, third, m_other});
+    // What the command line says of each file alone.
+    const auto expected = [](const QStringList& files) {
+      QStringList lines;
+      for (const QString& file : files) {
+        const ProgramRun run = cli(
+            {"statistics", file, "--expr", "BELIEF_ERROR", "--expr", "DECISION_ACTION_A", "--csv"});
+        const QStringList all = withTabs(run.out);
+        lines << (lines.isEmpty() ? all : all.mid(1));
+      }
+      lines.back() = lines.back().trimmed();  // as what is copied
+      return lines;
+    };
+    const QStringList four = expected({m_match, m_other, third, m_other});
+    QVERIFY(four.size() > 4 * 12);
+    QTRY_COMPARE_WITH_TIMEOUT(s.copied(), four, patience_ms);
+    QVERIFY(four.back().startsWith(m_other));
     QVERIFY(!s.table()->isColumnHidden(StatisticsModel::Session));
-    QCOMPARE(s.model()->at(1).line.session, m_other.toStdString());
-    compared->setOffset(3.0);
-    QTRY_COMPARE_WITH_TIMEOUT(s.model()->at(1).offset, 3.0, patience_ms);
-    compared->stop();
-    QTRY_VERIFY_WITH_TIMEOUT(s.model()->rowCount() == 1, patience_ms);
+    const int rows = s.model()->rowCount();
+    QCOMPARE(rows % 4, 0);
+    const auto session = [&s](int row) {
+      return s.model()->index(row, StatisticsModel::Session).data().toString();
+    };
+    QCOMPARE(session(0), QStringLiteral("match.mcap"));
+    QCOMPARE(session(rows / 4), QStringLiteral("′ other.mcap"));
+    QCOMPARE(session(rows - 1), QStringLiteral("′₃ other.mcap"));
+
+    compared->all()[1]->setOffset(3.0);
+    QTRY_COMPARE_WITH_TIMEOUT(s.model()->at(rows / 2).offset, 3.0, patience_ms);
+    // Sessions are chosen with the robots.
+    auto* menu = s.find<QMenu>("statisticsRobotsMenu");
+    emit menu->aboutToShow();
+    for (QAction* action : menu->actions()) {
+      if (action->text() == QStringLiteral("The one shown") ||
+          action->text() == QStringLiteral("′₃ other")) {
+        action->trigger();
+      }
+    }
+    QTRY_COMPARE_WITH_TIMEOUT(s.copied(), expected({m_other, third}), patience_ms);
+    QVERIFY2(s.find<QToolButton>("statisticsRobots")->text().contains("2 of 4 sessions"),
+             qPrintable(s.find<QToolButton>("statisticsRobots")->text()));
+    compared->removeAll();
+    QTRY_COMPARE_WITH_TIMEOUT(s.copied(), expected({m_match}), patience_ms);
     QVERIFY(s.table()->isColumnHidden(StatisticsModel::Session));
   }
 
@@ -475,7 +475,7 @@ class TestStatisticsDock : public QObject {
     drop(s.dock->widget(), names);
     QTRY_VERIFY_WITH_TIMEOUT(s.model()->rowCount() >= 140, patience_ms);
     s.type("statisticsAgainst", QStringLiteral("BELIEF_X"));
-    const BusyTurns turns;
+    const tests::EventLoopWatchdog turns;
     s.window.shown()->setSelection(telemetry::TimeRange{1.0, 19.0});
     QTRY_VERIFY_WITH_TIMEOUT(s.line("B1", "B1.TRUE_X") && s.line("B1", "B1.TRUE_X")->error &&
                                  s.line("B1", "B1.TRUE_X")->summary.samples == 1081,

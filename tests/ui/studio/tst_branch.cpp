@@ -45,7 +45,7 @@ struct Studio : window_rig::Studio {
     for (QGraphicsItem* item : window.field()->findChild<QGraphicsView*>()->scene()->items()) {
       if (const auto* compared = dynamic_cast<ComparedItem*>(item)) return compared->robots();
     }
-    return -1;
+    return 0;
   }
   QAction* action(const char* name) { return find<QAction>(name); }
 };
@@ -101,9 +101,10 @@ class TestBranch : public QObject {
     s.playTo(480);
     auto* plots = s.window.findChild<PlotsDock*>();
     plots->plotVariables({QStringLiteral("match/BALL_X")});
-    QTRY_VERIFY(plots->feed()->hasCompared());
-    QCOMPARE(plots->feed()->comparedCaption(), QStringLiteral("abandoned at 00:04"));
-    QVERIFY(plots->feed()->compared(QStringLiteral("match/BALL_X")));
+    const auto& compared = plots->feed()->compared();
+    QTRY_COMPARE(compared.size(), 1U);
+    QCOMPARE(compared[0].caption, QStringLiteral("abandoned at 00:04"));
+    QVERIFY(plots->feed()->find(compared[0], QStringLiteral("match/BALL_X")));
     QCOMPARE(s.ghosts(), 0);
     s.action("compareFuture")->trigger();
     QTRY_COMPARE(s.ghosts(), 8);
@@ -114,13 +115,13 @@ class TestBranch : public QObject {
     s.timeline()->goLive();
     // Live has no branch, and it is still there afterwards.
     s.window.showSource(SourceKind::Live);
-    QVERIFY(!s.future()->isOn() && !plots->feed()->hasCompared());
+    QVERIFY(!s.future()->isOn() && plots->feed()->compared().empty());
     s.window.showSource(SourceKind::Simulate);
     QVERIFY(s.future()->isOn());
     s.action("dropFuture")->trigger();
     QVERIFY(!s.future()->isOn() && s.future()->series() == nullptr);
     QTRY_COMPARE(s.ghosts(), 0);
-    QVERIFY(!plots->feed()->hasCompared());
+    QVERIFY(plots->feed()->compared().empty());
     QVERIFY(!s.action("dropFuture")->isVisible());
     QVERIFY(s.find<TimelineStrip>("timelineStrip")->branchRect().isEmpty());
   }

@@ -14,10 +14,13 @@
 #include <QPushButton>
 #include <QTableView>
 #include <QTableWidget>
+#include <QToolButton>
 
+#include <ui/base/robot_text.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/rerun/rerun_dialog.h>
 #include <ui/rerun/rerunner.h>
+#include <ui/robots/robots_dock.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/replay_controller.h>
 
@@ -115,6 +118,13 @@ struct Panel : studio_rig::Studio {
       }
     }
     return all;
+  }
+  /// Of the card of a robot.
+  QString subtitle(const char* robot) const {
+    for (const RobotCard* card : window.findChild<RobotsDock*>()->cards()) {
+      if (card->state().name == QLatin1String(robot)) return card->state().subtitle;
+    }
+    return QStringLiteral("no card");
   }
   QTableView* list() const { return dock->findChild<QTableView*>(QStringLiteral("differences")); }
   QString state() const { return dock->findChild<QLabel*>(QStringLiteral("rerunState"))->text(); }
@@ -237,6 +247,13 @@ class TestRerunPanel : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(s.hasRobot("B1 rerun"), patience_ms);
     QVERIFY(s.hasRobot("B1"));
     QTRY_VERIFY(s.window.shown()->frame() && s.window.shown()->frame()->robots.size() == 2);
+    // Two names on the field, where one stands on the other.
+    QStringList names;
+    for (const link::RobotFrame& robot : s.window.shown()->frame()->robots)
+      names << robotName(robot);
+    names.sort();
+    QCOMPARE(names, QStringList({QStringLiteral("B1"), QStringLiteral("B1 rerun")}));
+    QCOMPARE(s.subtitle("B1 rerun"), QStringLiteral("Striker"));
     QCOMPARE(s.window.shown()->time(), 3.0);
     QVERIFY(s.window.shown()->selection() == (telemetry::TimeRange{1.0, 8.0}));
     QCOMPARE(s.window.replay()->recording(), m_ours);
@@ -253,10 +270,83 @@ class TestRerunPanel : public QObject {
     QCOMPARE(s.find<QComboBox>("rerunRobot")->findText(QStringLiteral("B1 rerun")), -1);
   }
 
+  void severalProcessesRunAtOnce() {
+    Panel s;
+    s.open(m_ours);
+    s.window.shown()->setSelection(telemetry::TimeRange{1.0, 8.0});
+    s.ask();
+    auto* outputs = s.find<QTableWidget>("rerunOutputs");
+    const auto begins = [outputs](const char* text) {
+      return outputs->findItems(QLatin1String(text), Qt::MatchStartsWith).size();
+    };
+    QTRY_VERIFY(begins("DECISION_ACTION") > 0 && begins("LOCALIZATION_X") == 0);
+    s.click("rerunAddProcess");
+    auto* second = s.find<QComboBox>("rerunMoreProcess");
+    QVERIFY(second->currentText() != QStringLiteral("decision"));
+    second->setCurrentText(QStringLiteral("localization"));
+    QCOMPARE(s.find<QComboBox>("rerunMoreProgram")->currentText(), QStringLiteral("reference"));
+    QTRY_VERIFY(begins("DECISION_ACTION") > 0 && begins("LOCALIZATION_X") > 0);
+    QVERIFY2(s.find<QLabel>("rerunNotes")
+                 ->text()
+                 .contains(QStringLiteral("Everything that decision and localization read")),
+             qPrintable(s.find<QLabel>("rerunNotes")->text()));
+    // The same process twice is refused before it runs.
+    second->setCurrentText(QStringLiteral("decision"));
+    QTRY_VERIFY2(s.message().contains(QStringLiteral("twice")), qPrintable(s.message()));
+    QVERIFY(!s.find<QPushButton>("rerunStart")->isEnabled());
+    second->setCurrentText(QStringLiteral("localization"));
+    QTRY_VERIFY(s.message().isEmpty() && s.find<QPushButton>("rerunStart")->isEnabled());
+    // With the check of reproducibility, both run unchanged first.
+    auto* check = s.find<QCheckBox>("rerunCheck");
+    QTest::mouseClick(check, Qt::LeftButton, {}, {8, check->height() / 2});
+    QSignalSpy finished(s.rerunner, &Rerunner::finished);
+    s.click("rerunStart");
+    QTRY_VERIFY2_WITH_TIMEOUT(!finished.isEmpty(), qPrintable(s.rerunner->problem() + s.message()),
+                              patience_ms);
+    const auto result = s.rerunner->result();
+    QCOMPARE(result->processes, (std::vector<link::RerunProcess>{{"decision", "reference"},
+                                                                 {"localization", "reference"}}));
+    QCOMPARE(result->unequal(), std::uint64_t(0));
+    QVERIFY(QFile::exists(path("ours.B1-decision-localization.same.json")));
+    // It can be taken away again.
+    s.ask();
+    QTest::mouseClick(s.find<QToolButton>("rerunRemoveProcess"), Qt::LeftButton);
+    QTRY_VERIFY(s.dialog->findChild<QComboBox*>(QStringLiteral("rerunMoreProcess")) == nullptr);
+    QTRY_VERIFY(begins("DECISION_ACTION") > 0 && begins("LOCALIZATION_X") == 0);
+  }
+
+  /// What of it cannot run is said before it starts.
+  void aWholeProfileRuns() {
+    Panel s;
+    s.open(m_ours);
+    s.window.shown()->setSelection(telemetry::TimeRange{1.0, 6.0});
+    s.ask();
+    s.find<QComboBox>("rerunProcess")->setCurrentText(QStringLiteral("All of a profile"));
+    QVERIFY(!s.find<QPushButton>("rerunAddProcess")->isEnabled());
+    s.type("rerunProgram", QStringLiteral("reference"));
+    auto* notes = s.find<QLabel>("rerunNotes");
+    QTRY_VERIFY2(notes->text().contains(QStringLiteral("communication also gets")),
+                 qPrintable(notes->text()));
+    QVERIFY2(notes->text().contains(QStringLiteral("team also gets messages of team-mates")),
+             qPrintable(notes->text()));
+    QSignalSpy finished(s.rerunner, &Rerunner::finished);
+    s.click("rerunStart");
+    QTRY_VERIFY2_WITH_TIMEOUT(!finished.isEmpty(), qPrintable(s.rerunner->problem()), patience_ms);
+    const auto result = s.rerunner->result();
+    QVERIFY(result->processes.size() >= 2 && result->unequal() == 0);
+    s.run(path("profile.json"));
+    QCOMPARE(s.rerunner->result()->processes,
+             (std::vector<link::RerunProcess>{{"decision", path("profile.json").toStdString()}}));
+  }
+
   void aChangedProgramGivesAListThatLeadsToTheMoments() {
     Panel s;
     s.open(m_team);
+    // Who decided, in the recording and in the rerun.
+    QTRY_COMPARE(s.subtitle("B1"), QStringLiteral("ball_robot.py"));
     s.run(program("changed.py", changed()));
+    QTRY_COMPARE_WITH_TIMEOUT(s.subtitle("B1 rerun"), QStringLiteral("changed.py"), patience_ms);
+    QCOMPARE(s.subtitle("B1"), QStringLiteral("ball_robot.py"));
     const auto result = s.rerunner->result();
     QVERIFY(result && result->stretches() > 0);
     QTableView* list = s.list();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A second session beside the one that is shown.
+// Sessions beside the one that is shown.
 #include <QContextMenuEvent>
 #include <QGraphicsView>
 #include <QHelpEvent>
@@ -11,11 +11,12 @@
 
 #include <robotlink/live/live_pipeline.h>
 #include <robotlink/session/live_recorder.h>
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/session/session_writer.h>
-#include <telemetry/wire/text_protocol.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/linked_time.h>
 
 #include "../../support/group_facts.h"
@@ -140,10 +141,17 @@ class TestSessionCompare : public QObject {
 
   static int ghostsOf(FieldView* field) {
     const auto* view = field->findChild<QGraphicsView*>();
+    int all = 0;
     for (QGraphicsItem* item : view->scene()->items()) {
-      if (const auto* compared = dynamic_cast<ComparedItem*>(item)) return compared->robots();
+      if (const auto* compared = dynamic_cast<ComparedItem*>(item)) all += compared->robots();
     }
-    return -1;
+    return all;
+  }
+  /// The only session that is compared; null while it is being opened.
+  static ComparedSession* compare(Studio& s, const QString& path) {
+    s.window.compared()->open({path});
+    if (!QTest::qWaitFor([&s] { return !s.window.compared()->isEmpty(); }, 20'000)) return nullptr;
+    return s.window.compared()->all().front();
   }
 
  private slots:
@@ -154,14 +162,12 @@ class TestSessionCompare : public QObject {
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     const QString path = s.recorded(300);
     QVERIFY(!path.isEmpty());
-    ComparedSession* compared = s.window.compared();
     auto* strip = s.window.findChild<TimelineStrip*>();
     QVERIFY(!s.action("stopComparing")->isEnabled());
     const auto ghosts = [&s] { return ghostsOf(s.window.field()); };
-    QSignalSpy changed(compared, &ComparedSession::changed);
     // In Simulate: the match has gone on to where the session begins, and on.
-    compared->open(path);
-    QTRY_COMPARE(changed.size(), 1);
+    ComparedSession* compared = compare(s, path);
+    QVERIFY(compared);
     QVERIFY(s.window.shown()->kind().hasPresent);
     QVERIFY(strip->comparedRect().isValid());
     s.window.shown()->seek(12.0);
@@ -184,12 +190,12 @@ class TestSessionCompare : public QObject {
     QTRY_COMPARE(ghosts(), 6);
     // In Live there is nothing at these times; nothing breaks.
     s.window.showSource(SourceKind::Live);
-    QVERIFY(compared->isOn());
+    QVERIFY(!s.window.compared()->isEmpty());
     s.window.showSource(SourceKind::Replay);
     QVERIFY(s.action("stopComparing")->isEnabled());
     s.action("stopComparing")->trigger();
     QCOMPARE(ghosts(), 0);
-    QVERIFY(!compared->isOn());
+    QVERIFY(s.window.compared()->isEmpty());
     QVERIFY(!strip->comparedRect().isValid());
   }
 
@@ -202,13 +208,12 @@ class TestSessionCompare : public QObject {
     s.window.openSession(longSession(folder));
     QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
     const QString live = liveSession(folder);
-    s.window.compared()->open(live);
-    QTRY_VERIFY(s.window.compared()->isOn());
+    QVERIFY(compare(s, live));
     time->setRange({600.0, 610.0});
     QVERIFY(!time->isFollowing());
     s.window.openSession(live);
     QTRY_COMPARE(s.window.replay()->path(), live);
-    QVERIFY(!s.window.compared()->isOn());
+    QVERIFY(s.window.compared()->isEmpty());
     QVERIFY(time->isFollowing());
     QVERIFY(time->range().begin < 30.0);
     // Also where both have something.
@@ -222,9 +227,8 @@ class TestSessionCompare : public QObject {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     const QString path = s.recorded(300);
-    QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
-    s.window.compared()->open(path);
-    QTRY_COMPARE(changed.size(), 1);
+    ComparedSession* compared = compare(s, path);
+    QVERIFY(compared);
     s.window.shown()->seek(2.0);
     s.window.shown()->addBookmark(QStringLiteral("mine"));
     auto* strip = s.window.findChild<TimelineStrip*>();
@@ -245,21 +249,21 @@ class TestSessionCompare : public QObject {
     };
     // The strip takes a new mark with its next refresh.
     QTRY_VERIFY(align({qRound(strip->axis().pixel(2.0)), 13}));
-    QVERIFY(s.window.compared()->here());
-    const double here = *s.window.compared()->here();
+    QVERIFY(compared->here());
+    const double here = *compared->here();
     QTRY_VERIFY(!strip->comparedMarks().empty());
     QTRY_VERIFY(
         align({qRound(strip->comparedMarks().front().x), strip->comparedRect().center().y()}));
-    QVERIFY(s.window.compared()->there());
-    QCOMPARE(s.window.compared()->offset(), here - *s.window.compared()->there());
+    QVERIFY(compared->there());
+    QCOMPARE(compared->offset(), here - *compared->there());
   }
 
   void aFileThatCannotBeComparedIsANotice() {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
-    s.window.compared()->open(s.folder.filePath(QStringLiteral("none.mcap")));
+    s.window.compared()->open({s.folder.filePath(QStringLiteral("none.mcap"))});
     QTRY_VERIFY2(s.notice().contains(QStringLiteral("none.mcap")), qPrintable(s.notice()));
-    QVERIFY(!s.window.compared()->isOn());
+    QVERIFY(s.window.compared()->isEmpty());
   }
 
   void itsCurvesStandInTheSamePlots() {
@@ -270,26 +274,26 @@ class TestSessionCompare : public QObject {
     auto* plots = s.window.findChild<PlotsDock*>();
     QVERIFY(plots != nullptr);
     plots->plotVariables({QStringLiteral("B1/TRUE_X")});
-    s.window.compared()->open(path);
-    QTRY_VERIFY(s.window.compared()->isOn());
+    ComparedSession* compared = compare(s, path);
+    QVERIFY(compared);
     s.window.shown()->seek(12.0);
     plots->time()->setRange({10.5, 14.5});
     auto* pane = plots->findChild<ChartPane*>();
     QVERIFY(pane != nullptr);
-    const auto low = [](const std::vector<CurveTrace>& traces) {
+    const auto low = [](std::span<const CurveTrace> traces) {
       return traces.empty() || !traces.front().any ? std::nan("") : traces.front().low;
     };
     // The same match: the two curves lie on each other.
     QTRY_VERIFY(!std::isnan(low(pane->comparedTraces())));
     QTRY_COMPARE(low(pane->comparedTraces()), low(pane->traces()));
     // Moved by 3 s: what is drawn at 13.5 s is what was there at 10.5 s.
-    s.window.compared()->setOffset(3.0);
+    compared->setOffset(3.0);
     QTRY_VERIFY(!pane->comparedTraces().empty() && pane->comparedTraces().front().any);
     const auto first = [](const CurveTrace& trace) {
       return trace.exact ? trace.samples.front().time : trace.columns.front().time;
     };
     QTRY_VERIFY(first(pane->comparedTraces().front()) > 12.9);
-    s.window.compared()->stop();
+    s.window.compared()->removeAll();
     QTRY_VERIFY(std::isnan(low(pane->comparedTraces())));
   }
 
@@ -309,8 +313,8 @@ class TestSessionCompare : public QObject {
     xy.curves << variableCurve("B1/TRUE_X");
     xy.curves[0].inputs << "B1/TRUE_Y";
     plots->setLayoutSpec({{PageSpec{"one", {chart, lane, xy}}}, 0});
-    s.window.compared()->open(path);
-    QTRY_VERIFY(s.window.compared()->isOn());
+    ComparedSession* compared = compare(s, path);
+    QVERIFY(compared);
     s.window.shown()->seek(12.0);
     plots->time()->setRange({10.5, 14.5});
     const auto* charts = plots->findChild<ChartPane*>();
@@ -323,24 +327,24 @@ class TestSessionCompare : public QObject {
              charts->comparedTraces()[0].low == charts->traces()[0].low &&
              charts->comparedTraces()[0].high == charts->traces()[0].high &&
              !lanes->stretches(0).empty() && lanes->comparedStretches(0) == lanes->stretches(0) &&
-             !paths->points()[0].empty() && paths->comparedPoints() == paths->points();
+             !paths->points()[0].empty() && paths->comparedPoints(0) == paths->points()[0];
     };
     QTRY_VERIFY(same());
     // Moved by 3 s: what stands at 13.5 s is what was there at 10.5 s.
     const QPointF first = paths->points()[0].front();
-    s.window.compared()->setOffset(3.0);
+    compared->setOffset(3.0);
     plots->time()->setRange({13.5, 14.5});
     const auto moved = [&] {
-      return !paths->comparedPoints()[0].empty() && paths->comparedPoints()[0].front() == first;
+      return !paths->comparedPoints(0).empty() && paths->comparedPoints(0).front() == first;
     };
     QTRY_VERIFY(moved());
     constexpr double rounding = 1e-9;
     QTRY_VERIFY(!lanes->comparedStretches(0).empty() &&
                 lanes->comparedStretches(0).front().begin >= 13.5 - rounding);
-    s.window.compared()->stop();
+    s.window.compared()->removeAll();
     const auto gone = [&] {
-      return lanes->comparedStretches(0).empty() && paths->comparedPoints()[0].empty() &&
-             !charts->comparedTraces()[0].any;
+      return lanes->comparedStretches(0).empty() && paths->comparedPoints(0).empty() &&
+             charts->comparedTraces().empty();
     };
     QTRY_VERIFY(gone());
   }
@@ -362,12 +366,12 @@ class TestSessionCompare : public QObject {
       s.window.findChild<PlotsDock*>()->setFixedHeight(240);
       s.window.openSession(path);
       if (!QTest::qWaitFor([&s] { return s.window.replay()->isOpen(); })) return false;
-      if (compared) s.window.compared()->open(path);
+      ComparedSession* other = compared ? compare(s, path) : nullptr;
       const auto ready = [&] {
-        return s.window.replay()->loaded() == 1.0 && (!compared || s.window.compared()->isOn());
+        return s.window.replay()->loaded() == 1.0 && (!compared || other != nullptr);
       };
       if (!QTest::qWaitFor(ready)) return false;
-      if (compared) s.window.compared()->setOffset(-3.37);
+      if (compared) other->setOffset(-3.37);
       // Short enough for every sample to be drawn.
       s.window.findChild<PlotsDock*>()->time()->setWindow(15.0);
       return true;
@@ -603,9 +607,8 @@ class TestSessionCompare : public QObject {
     Studio s;
     QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
     const QString path = s.recorded(300);
-    QSignalSpy changed(s.window.compared(), &ComparedSession::changed);
-    s.window.compared()->open(path);
-    QTRY_COMPARE(changed.size(), 1);
+    ComparedSession* compared = compare(s, path);
+    QVERIFY(compared);
     auto* strip = s.window.findChild<TimelineStrip*>();
     const QRect row = strip->comparedRect();
     const QPoint from(row.center()), to(row.center() + QPoint(60, 0));
@@ -613,10 +616,10 @@ class TestSessionCompare : public QObject {
     QTest::mouseMove(strip, to);
     QTest::mouseRelease(strip, Qt::LeftButton, {}, to);
     const double moved = 60.0 * strip->axis().secondsPerPixel();
-    QVERIFY(std::abs(s.window.compared()->offset() - moved) < 0.05 * moved + 0.05);
-    QVERIFY(!s.window.compared()->isAlignedByTime());
-    s.window.compared()->alignByTime();
-    QCOMPARE(s.window.compared()->offset(), 0.0);
+    QVERIFY(std::abs(compared->offset() - moved) < 0.05 * moved + 0.05);
+    QVERIFY(!s.window.compared()->areAlignedByTime());
+    s.window.compared()->alignAllByTime();
+    QCOMPARE(compared->offset(), 0.0);
   }
 };
 

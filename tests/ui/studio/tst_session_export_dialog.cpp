@@ -7,6 +7,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLayout>
+#include <QLineEdit>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
@@ -16,8 +17,8 @@
 #include <array>
 #include <cmath>
 
+#include <telemetry/monitor/team_setup.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/team_setup.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/session/export_dialog.h>
@@ -109,6 +110,44 @@ class TestSessionExportDialog : public QObject {
     }
     s.window.shown()->goLive();
     for (const QImage& image : pictures("again")) QVERIFY(isAt(image, is) && !isAt(image, was));
+  }
+
+  // The lists of robots and variables say how many of all are chosen, those that the filter hides
+  // included.
+  void theListsCountWhatIsChosen() {
+    Studio s(60);
+    QTRY_VERIFY_WITH_TIMEOUT(s.played(60), 20'000);
+    ExportDialog* dialog = openExport(s);
+    QVERIFY(dialog != nullptr);
+    choose(dialog, QStringLiteral("row per time"));
+    const auto counts = dialog->findChildren<QLabel*>(QStringLiteral("ticked"));
+    QCOMPARE(counts.size(), qsizetype(2));
+    for (const QLabel* count : counts) {
+      QWidget* list = count->parentWidget();
+      const int all = list->findChild<QListWidget*>()->count();
+      QVERIFY(all >= 7);
+      const auto shows = [&](int chosen) {
+        return count->text() == QStringLiteral("%1 of %2").arg(chosen).arg(all);
+      };
+      const auto press = [list](const char* text) {
+        for (auto* button : list->findChildren<QToolButton*>()) {
+          if (button->text() == QLatin1String(text)) button->click();
+        }
+      };
+      press("All");
+      QVERIFY2(shows(all), qPrintable(count->text()));
+      list->findChild<QListWidget*>()->item(0)->setCheckState(Qt::Unchecked);
+      QVERIFY2(shows(all - 1), qPrintable(count->text()));
+      press("None");
+      QVERIFY2(shows(0), qPrintable(count->text()));
+      auto* filter = list->findChild<QLineEdit*>();
+      QTest::keyClicks(filter, list->findChild<QListWidget*>()->item(1)->text());
+      press("All");
+      QVERIFY2(!shows(0) && !shows(all), qPrintable(count->text()));
+      filter->clear();
+      press("All");
+      QVERIFY2(shows(all), qPrintable(count->text()));
+    }
   }
 
   void everyForm_data() {

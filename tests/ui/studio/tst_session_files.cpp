@@ -6,13 +6,14 @@
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
+#include <algorithm>
 
 #include <telemetry/mcap/mcap_writer.h>
 #include <telemetry/session/session_reader.h>
+#include <telemetry/session/session_writer.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/session/session_files.h>
-#include <ui/sources/compared_session.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
@@ -285,6 +286,52 @@ class TestSessionFiles : public QObject {
     // What is not in memory comes from the file.
     s.window.shown()->seek(10.5);
     QTRY_COMPARE(s.window.replay()->frame()->snapshot.tick, std::uint64_t(630));
+  }
+
+  // Robots that came late: what was never there is not missed, what was dropped is.
+  void robotsThatCameLateAreNotTakenForRowsThatDoNotFit_data() {
+    QTest::addColumn<int>("columns");
+    QTest::addColumn<bool>("fits");
+    QTest::newRow("all rows fit, and fill more than half of the memory") << 110 << true;
+    QTest::newRow("some do not") << 400 << false;
+  }
+  void robotsThatCameLateAreNotTakenForRowsThatDoNotFit() {
+    QFETCH(const int, columns);
+    QFETCH(const bool, fits);
+    constexpr int rows = 600;
+    constexpr double came = 60.0, interval = 1.0 / 60.0;  // s
+    Studio s(0);
+    const QString path = s.folder.filePath(QStringLiteral("late.mcap"));
+    telemetry::SessionInfo info;
+    info.program = "test";
+    info.source = "simulation";
+    auto writer = telemetry::SessionWriter::create(path.toStdString(), info);
+    QVERIFY(writer);
+    (*writer)->append(telemetry::SessionEvent{0.0, "bookmark", "", "before anybody came"});
+    telemetry::GroupInfo group{"B1", {}, {}};
+    for (int i = 0; i < columns; ++i) {
+      group.columns.push_back({"X" + std::to_string(i),
+                               telemetry::ColumnType::Float64,
+                               "",
+                               "",
+                               telemetry::ColumnKind::Number,
+                               {}});
+    }
+    (*writer)->addGroup(group);
+    std::vector<double> values(static_cast<std::size_t>(columns));
+    for (int i = 0; i < rows; ++i) {
+      std::ranges::fill(values, i);
+      (*writer)->append(0, {came + i * interval, {}, values});
+    }
+    QVERIFY((*writer)->finish());
+    s.window.setMemoryBudget(1);
+    while (!s.notice().isEmpty()) closeNotice(s.window);
+    s.window.openSession(path);
+    QTRY_VERIFY(s.window.replay()->isOpen() && s.window.replay()->loaded() >= 1.0);
+    const auto held = s.window.replay()->series()->range();
+    QVERIFY(held);
+    QCOMPARE(held->begin < came + interval, fits);
+    QCOMPARE(s.notice().contains(QStringLiteral("does not fit into memory (1 MB)")), !fits);
   }
 
   void aDroppedFileOpens() {

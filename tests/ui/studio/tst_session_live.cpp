@@ -16,6 +16,7 @@
 #include <telemetry/session/session_reader.h>
 #include <ui/session/export_dialog.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/replay_controller.h>
@@ -283,21 +284,21 @@ class TestSessionLive : public QObject {
     const auto elapsed = [&] { return timeline->available()->end - timeline->available()->begin; };
     for (int i = 0; i < 200 && elapsed() <= stoodAfter; ++i) QVERIFY(talk(second, others, 1));
     QVERIFY(elapsed() > stoodAfter);
-    ComparedSession* compared = second.window.compared();
+    ComparedSessions* all = second.window.compared();
     FramePtr ghost;
-    connect(compared, &ComparedSession::momentReached, this,
-            [&ghost](const FramePtr& frame) { ghost = frame; });
-    QSignalSpy changed(compared, &ComparedSession::changed);
-    compared->open(path);
-    QTRY_COMPARE(changed.size(), 1);
+    connect(all, &ComparedSessions::momentReached, this,
+            [&ghost](int, const FramePtr& frame) { ghost = frame; });
+    all->open({path});
+    QTRY_COMPARE(all->all().size(), 1U);
+    ComparedSession* compared = all->all().front();
     QVERIFY(compared->isAlignedByTime());
     const double begin = timeline->available()->begin;
     QVERIFY(std::abs(compared->offset() - (begin - session->range()->begin)) < 1e-9);
     constexpr double rounding = 1e-6;
     timeline->seek(begin + stoodAfter + rounding);
     QTRY_COMPARE(placeIn(ghost), place);
-    compared->stop();
-    disconnect(compared, nullptr, this, nullptr);
+    all->removeAll();
+    disconnect(all, nullptr, this, nullptr);
   }
 
   /// "Robot 1" is ticked in the studio, and quoted at a terminal.

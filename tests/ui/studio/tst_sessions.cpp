@@ -15,14 +15,14 @@
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/state_archive.h>
 #include <simcore/rules/game_start.h>
+#include <telemetry/formats/text_protocol.h>
 #include <telemetry/session/session_reader.h>
-#include <telemetry/wire/text_protocol.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/robots/robot_card.h>
 #include <ui/session/session_files.h>
-#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
@@ -533,8 +533,8 @@ class TestSessions : public QObject {
       Studio s;
       QTRY_VERIFY_WITH_TIMEOUT(s.played(600), 20'000);
       const QString earlier = s.recorded(60);
-      s.window.compared()->open(earlier);
-      QTRY_VERIFY(s.window.compared()->isOn());
+      s.window.compared()->open({earlier, earlier});
+      QTRY_COMPARE(s.window.compared()->all().size(), 2U);
       s.window.recordInto(path);
       QVERIFY(s.window.recording()->isRecording());
       s.window.live()->setOptions(live_rig::options());

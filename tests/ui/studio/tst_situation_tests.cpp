@@ -22,6 +22,7 @@
 #include <robotlink/experiment/experiment.h>
 #include <ui/base/number_box.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/shown_moment.h>
@@ -223,8 +224,9 @@ void TestSituationTests::aTestIsPlayedAtOnceAndItsRunsAreSeen() {
   QTRY_VERIFY2_WITH_TIMEOUT(
       s.window.replay()->path().endsWith(QStringLiteral("/sessions/run-000001.mcap")),
       qPrintable(words->text() + s.window.replay()->path()), 20'000);
-  QTRY_VERIFY_WITH_TIMEOUT(s.window.compared()->isOn(), 60'000);
-  QVERIFY(s.window.compared()->path().endsWith(QStringLiteral("/sessions/run-000002.mcap")));
+  QTRY_COMPARE_WITH_TIMEOUT(s.window.compared()->all().size(), 1U, 60'000);
+  QVERIFY(s.window.compared()->all().front()->path().endsWith(
+      QStringLiteral("/sessions/run-000002.mcap")));
 }
 
 void TestSituationTests::theDialogExplainsWhatIsNotPossible() {

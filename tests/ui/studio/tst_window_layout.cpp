@@ -54,6 +54,27 @@ class TestWindowLayout : public QObject {
     QVERIFY(!again.findChild<QDockWidget*>(QStringLiteral("plots"))->isHidden());
   }
 
+  // Qt moves a window that begins close to the top of the screen, by the height that the style
+  // gives title bars. It was lower after every start, with a frame that is lower than that.
+  void itStartsWhereItWas() {
+    for (const QPoint place : {QPoint(0, 0), QPoint(40, 7)}) {
+      const QSize size(700, 500);
+      Studio s(size);
+      s.window.move(place);
+      QTRY_COMPARE(s.window.pos(), place);
+      s.window.close();
+      for (int start = 0; start < 2; ++start) {
+        MatchController controller(Studio::options());
+        MainWindow again(&controller, &s.settings);
+        again.show();
+        QVERIFY(QTest::qWaitForWindowExposed(&again));
+        QCOMPARE(again.pos(), place);
+        QCOMPARE(again.size(), size);
+        again.close();
+      }
+    }
+  }
+
   void theScoreStaysInNarrowWindows() {
     Studio s({1000, 700});
     s.play();

@@ -444,7 +444,7 @@ class TestTimeline : public QObject {
     EventList other;
     other.add({link::MatchEventKind::Goal, 5.0, {}, "RED"});
     const int before = b.strip->sizeHint().height();
-    b.strip->setCompared(&other, 20.0, QStringLiteral("other"));
+    b.strip->setCompared({{&other, 20.0, QStringLiteral("other")}});
     QVERIFY(b.strip->sizeHint().height() > before);
     const QImage with = b.strip->grab().toImage();
     other.clear();

@@ -24,6 +24,7 @@
 #include <ui/base/theme.h>
 #include <ui/session/export_dialog.h>
 #include <ui/sources/replay_controller.h>
+#include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
 #include <ui/window/scenario_files.h>
 
@@ -44,25 +45,9 @@ namespace {
 constexpr int patience_ms = 30'000;
 constexpr int clipLength = 150;  // pictures, 25 a second
 
-struct Panel : studio_rig::Studio {
-  QDockWidget* dock = window.findChild<QDockWidget*>(QStringLiteral("video"));
-
-  Panel() {
-    dock->show();
-    dock->raise();
-  }
-  template <class Widget>
-  Widget* find(const char* name) const {
-    auto* found = dock->findChild<Widget*>(QLatin1String(name));
-    if (found == nullptr) qFatal("there is no %s", name);
-    return found;
-  }
+struct Panel : studio_rig::PanelStudio {
+  Panel() : PanelStudio("video") {}
   ShownMoment* shown() { return window.shown(); }
-  void open(const QString& session) {
-    window.openSession(session);
-    QTRY_VERIFY_WITH_TIMEOUT(
-        shown()->source() == window.replay() && window.replay()->path() == session, patience_ms);
-  }
   QList<VideoView*> views() const { return dock->findChildren<VideoView*>(); }
   VideoCamera* camera(int index = 0) const { return views().at(index)->camera(); }
   bool isOpen(int index = 0) const {
@@ -314,6 +299,73 @@ class TestVideoDock : public QObject {
       QVERIFY(s.shown()->isLookingBack());
       QTRY_COMPARE_WITH_TIMEOUT(s.number(), picture, patience_ms);
     }
+  }
+
+  /// Videos of a match stay with what is recorded of it, whichever came first.
+  void aRecordedMatchKeepsItsVideos_data() {
+    QTest::addColumn<QString>("order");
+    for (const char* order : {"video first", "recording first", "the last seconds"}) {
+      QTest::newRow(order) << QString(QLatin1String(order));
+    }
+  }
+  void aRecordedMatchKeepsItsVideos() {
+    QFETCH(QString, order);
+    Panel s;
+    SessionRecording* recording = s.window.recording();
+    recording->setFolder(path(QStringLiteral("kept ") + order));
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    s.controller.runTo(300);
+    QTRY_VERIFY(s.controller.frame() && s.controller.frame()->snapshot.tick == 300);
+    if (order == QStringLiteral("recording first")) recording->start();
+    s.drop(m_clip);
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(), patience_ms);
+    s.shown()->seek(3.0);
+    s.press("alignVideo");
+    s.find<QSlider>("videoPosition")->setValue(50);
+    s.press("videoSameMoment");
+    s.press("alignDone");
+    const std::vector<telemetry::VideoAnchor> anchors = s.camera()->kept().anchors;
+    QCOMPARE(anchors.size(), std::size_t(1));
+    QVERIFY(std::abs(anchors[0].session - 3.0) < 1e-9 && std::abs(anchors[0].video - 2.0) < 1e-9);
+    s.shown()->goLive();
+    if (order == QStringLiteral("video first")) {
+      recording->start();
+      // While it goes on, so that a crash costs nothing.
+      QCOMPARE(keptOf(recording->path()).size(), std::size_t(1));
+    }
+    QSignalSpy saved(recording, &SessionRecording::saved);
+    s.controller.runTo(420);
+    QTRY_VERIFY(s.controller.frame()->snapshot.tick == 420);
+    if (order == QStringLiteral("the last seconds")) {
+      recording->saveLast(5.0);
+    } else {
+      recording->stop();
+    }
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, patience_ms);
+    const QString file = saved.at(0).at(0).toString();
+    QCOMPARE(keptOf(file).size(), std::size_t(1));
+    QCOMPARE(keptOf(file)[0].path, m_clip.toStdString());
+    QVERIFY(keptOf(file)[0].anchors == anchors);
+
+    // In Replay it is there again, at the same moments.
+    s.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(), patience_ms);
+    s.shown()->seek(5.5);
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), 112, patience_ms);
+  }
+  void aRecordingWithoutVideosHasNoFileBesideIt() {
+    Panel s;
+    s.window.recording()->setFolder(path(QStringLiteral("plain")));
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    QTRY_VERIFY(s.controller.frame() != nullptr);
+    s.window.recording()->start();
+    s.controller.runTo(60);
+    QTRY_VERIFY(s.controller.frame()->snapshot.tick == 60);
+    QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
+    s.window.recording()->stop();
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, patience_ms);
+    const std::string file = saved.at(0).at(0).toString().toStdString();
+    QVERIFY(!QFile::exists(QString::fromStdString(telemetry::sessionNotesPath(file))));
   }
 
   void fourPointsGiveTheFieldInThePicture() {

@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QGraphicsView>
+#include <QLabel>
 #include <QMenuBar>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -21,6 +22,7 @@
 #include <ui/window/scenario_files.h>
 
 #include "../support/menu_entry.h"
+#include "../support/real_time_robot.h"
 #include "../support/segment_keys.h"
 #include "studio_rig.h"
 
@@ -163,6 +165,22 @@ class TestMainWindow : public QObject {
     QVERIFY(!inside.chooseInMenu(entry));
     QVERIFY(!inside.menuAction(entry)->isEnabled());
     QCOMPARE(inside.controller.pace(), link::RobotsPace::LockStep);
+  }
+
+  void theStatusBarSaysWhetherAProcessIsWaitedFor() {
+    const QTemporaryDir folder;
+    link::MatchOptions separate;
+    separate.cognition = link::Cognition::Separate;
+    separate.keyBase = testKeyBase();
+    separate.robotProgram = PITCHBOARD_BIN "/pitchboard-robot";
+    {
+      Studio s(false, separate, "one-robot");
+      auto* label = s.window.findChild<QLabel*>(QStringLiteral("statusProcesses"));
+      QTRY_VERIFY_WITH_TIMEOUT(label->text().endsWith(QStringLiteral("in lock-step")), 30'000);
+      s.controller.open(realTimeRobot(folder));
+      QTRY_VERIFY_WITH_TIMEOUT(label->text().endsWith(QStringLiteral("running freely")), 30'000);
+    }
+    removeSegment(separate.keyBase.value() + 100);
   }
 
   void theMenuUndoes() {

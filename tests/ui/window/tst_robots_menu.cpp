@@ -8,6 +8,7 @@
 #include <QHelpEvent>
 #include <QLineEdit>
 #include <QMenuBar>
+#include <QScrollBar>
 #include <QSet>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -36,7 +37,7 @@ class TestRobotsMenu : public QObject {
   Q_OBJECT
 
   struct Studio : studio_rig::Studio {
-    explicit Studio(int more = 0) {
+    explicit Studio(int more = 0, QSize size = {1280, 800}) : studio_rig::Studio(size) {
       link::Scenario scenario = link::loadScenario("match-3v3").value();
       for (int i = 0; i < more; ++i) {
         link::ScenarioRobot robot;
@@ -225,6 +226,46 @@ class TestRobotsMenu : public QObject {
     QTRY_COMPARE(few.cards().size(), qsizetype(9));
     for (const RobotCard* card : few.cards())
       QCOMPARE(card->isCollapsed(), card->state().number == 11);
+  }
+
+  // In a low window, with all cards open: none is cut, and each can be reached.
+  void cardsThatDoNotFitScroll() {
+    Studio s(6, {960, 600});
+    QTRY_COMPARE(s.cards().size(), qsizetype(12));
+    s.dock()->setAllCollapsed(false);
+    QScrollBar* bar = s.dock()->verticalScrollBar();
+    QTRY_VERIFY(bar->maximum() > 0);
+    const QRect port = s.dock()->viewport()->rect();
+    const auto placeOf = [&s](const QWidget* card) {
+      return QRect(card->mapTo(s.dock()->viewport(), QPoint()), card->size());
+    };
+    for (const RobotCard* card : s.cards()) {
+      QTRY_VERIFY2(card->height() >= card->minimumSizeHint().height(),
+                   qPrintable(QStringLiteral("%1 of %2")
+                                  .arg(card->height())
+                                  .arg(card->minimumSizeHint().height())));
+      QVERIFY(placeOf(card).left() >= port.left() && placeOf(card).right() <= port.right());
+    }
+    const RobotCard *first = s.cards().first(), *last = s.cards().last();
+    QVERIFY(port.contains(placeOf(first)) && !port.intersects(placeOf(last)));
+    // The wheel over a card.
+    const QPoint at = placeOf(first).center();
+    for (int i = 0; i < 100 && bar->value() < bar->maximum(); ++i) {
+      QWheelEvent wheel(at, s.dock()->viewport()->mapToGlobal(at), {}, {0, -120}, Qt::NoButton, {},
+                        Qt::NoScrollPhase, false);
+      QCoreApplication::sendEvent(s.dock()->viewport(), &wheel);
+    }
+    QVERIFY(port.contains(placeOf(last)));
+    QVERIFY(!port.intersects(placeOf(first)));
+    // New frames leave the list where it is.
+    const int there = bar->value();
+    s.controller.runTo(60);
+    QTRY_COMPARE(s.controller.frame()->snapshot.tick, std::uint64_t(60));
+    QTRY_VERIFY(s.cards().first()->state().detail.contains(QLatin1Char('m')));
+    QCOMPARE(bar->value(), there);
+    // Whoever is chosen elsewhere is seen here.
+    QVERIFY(s.trigger({"Select", first->state().name}));
+    QTRY_VERIFY(port.contains(placeOf(first)));
   }
 
   void aCardShowsNameAndTeam() {

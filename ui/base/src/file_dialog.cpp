@@ -4,8 +4,10 @@
 #include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMimeData>
 #include <QPointer>
 #include <QSettings>
+#include <QUrl>
 
 namespace pitchboard::ui {
 namespace {
@@ -53,6 +55,12 @@ QString askToOpen(QWidget* parent, const QString& title, const QString& filter) 
   return remembered(QFileDialog::getOpenFileName(parent, title, dialogFolder(), filter));
 }
 
+QStringList askToOpenSeveral(QWidget* parent, const QString& title, const QString& filter) {
+  const QStringList files = QFileDialog::getOpenFileNames(parent, title, dialogFolder(), filter);
+  if (!files.isEmpty()) rememberFolderOf(files.front());
+  return files;
+}
+
 QString askToSave(QWidget* parent, const QString& title, const QString& name,
                   const QString& filter) {
   return remembered(
@@ -71,6 +79,16 @@ void openInDialogFolder(QFileDialog* dialog) {
     if (!files.isEmpty()) rememberFolderOf(files.front());
   });
   dialog->open();
+}
+
+QStringList droppedFiles(const QMimeData* data, const QString& suffix) {
+  QStringList paths;
+  for (const QUrl& url : data->urls()) {
+    if (!url.isLocalFile()) continue;
+    const QString path = url.toLocalFile();
+    if (QFileInfo(path).suffix().toLower() == suffix) paths << path;
+  }
+  return paths;
 }
 
 }  // namespace pitchboard::ui

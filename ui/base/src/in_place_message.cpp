@@ -11,6 +11,15 @@
 
 namespace pitchboard::ui {
 
+QString shortListOf(const QStringList& sentences) {
+  constexpr qsizetype most = 3;
+  QStringList lines = sentences.mid(0, most);
+  if (sentences.size() > most) {
+    lines << QStringLiteral("%1 more like these").arg(sentences.size() - most);
+  }
+  return lines.join(QLatin1Char('\n'));
+}
+
 InPlaceMessage::InPlaceMessage(QWidget* parent)
     : QFrame(parent), m_text(new QLabel(this)), m_button(new QPushButton(this)) {
   setObjectName(QStringLiteral("inPlaceMessage"));

@@ -11,6 +11,7 @@
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <ui/base/theme.h>
@@ -122,9 +123,11 @@ NoticeBar::NoticeBar(QWidget* parent)
   m_side->addLayout(m_buttons);
   m_leaving = new QTimer(this);
   m_leaving->setSingleShot(true);
-  connect(m_leaving, &QTimer::timeout, this, [this] {
-    if (tone() == NoticeTone::Success) dismiss();
-  });
+  connect(m_leaving, &QTimer::timeout, this, &NoticeBar::removeOver);
+  m_clock = [] {
+    const auto now = std::chrono::steady_clock::now().time_since_epoch();
+    return qint64{std::chrono::duration_cast<std::chrono::milliseconds>(now).count()};
+  };
   hide();
 }
 
@@ -232,6 +235,15 @@ void NoticeBar::dismiss() {
   present();
 }
 
+void NoticeBar::removeOver() {
+  if (m_notices.empty() || tone() != NoticeTone::Success) return;
+  const qint64 left = m_leavesAt - m_clock();
+  if (left > 0)
+    m_leaving->start(static_cast<int>(left));
+  else
+    dismiss();
+}
+
 void NoticeBar::present() {
   while (QLayoutItem* item = m_buttons->takeAt(0)) {
     item->widget()->hide();
@@ -242,10 +254,12 @@ void NoticeBar::present() {
   if (m_notices.empty()) return;
   const Notice& notice = m_notices.front();
   const bool success = notice.topic.tone == NoticeTone::Success;
-  if (success)
-    m_leaving->start(notice.buttons.empty() ? successMilliseconds : choiceMilliseconds);
-  else
-    m_leaving->stop();
+  m_leaving->stop();
+  if (success) {
+    const int stays = notice.buttons.empty() ? successMilliseconds : choiceMilliseconds;
+    m_leavesAt = m_clock() + stays;
+    m_leaving->start(stays);
+  }
   m_text->setSentence(notice.sentence);
   m_more->setText(m_notices.size() > 1 ? QStringLiteral("%1 more").arg(m_notices.size() - 1)
                                        : QString());

@@ -5,7 +5,7 @@
 
 #include <base/duration_text.h>
 #include <simcore/world/action_codes.h>
-#include <telemetry/wire/meanings.h>
+#include <telemetry/formats/meanings.h>
 
 namespace pitchboard::ui {
 

@@ -39,6 +39,9 @@ constexpr Drawing drawings[] = {
     {"arrow-right-double", "M4 4l7 7-7 7zM11 4l7 7-7 7z"},
     {"arrow-down-double", "M4 4l7 7 7-7zM4 11l7 7 7-7z"},
     {"list-add", "M10 3h2v7h7v2h-7v7h-2v-7H3v-2h7z"},
+    {"draw-text", "M4 4h14v4h-2V6h-4v11h2v2H8v-2h2V6H6v2H4z"},
+    {"draw-arrow", "M3 17.6L15 5.6V9h2V2.5h-6.5v2h3.1L1.6 16.2z"},
+    {"draw-circle", "M11 2a9 9 0 1 1 0 18 9 9 0 0 1 0-18zM11 4a7 7 0 1 0 0 14 7 7 0 0 0 0-14z"},
     {"zoom-fit-best", "M2 2h6v2H4v4H2zM14 2h6v6h-2V4h-4zM2 14h2v4h4v2H2zM18 14h2v6h-6v-2h4z"},
 };
 

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QDesktopServices>
+#include <QFileInfo>
 #include <QFontDatabase>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -22,7 +23,7 @@
 #include <ui/base/running_work.h>
 #include <ui/base/theme.h>
 #include <ui/experiments/situation_tests.h>
-#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/replay_controller.h>
 
 #include "experiment_form.h"
@@ -179,15 +180,15 @@ class ExperimentsDock : public QWidget {
 
   void showRecorded(const QStringList& sessions) {
     m_parts.replay->open(sessions.front());
+    if (m_parts.compared != nullptr) m_parts.compared->removeAll();
     if (sessions.size() == 1) {
-      if (m_parts.compared != nullptr) m_parts.compared->stop();
       return showStatus(
           m_shown->experiment.hasTeamPrograms()
               ? QStringLiteral("The run is open in Replay. Team programs do not repeat "
                                "exactly: a run that was not recorded was played again.")
               : QStringLiteral("The run is open in Replay."));
     }
-    m_parts.compared->open(sessions.back());
+    m_parts.compared->open(sessions.mid(1));
     showStatus(
         QStringLiteral("Both runs are open in Replay; the second is drawn over the first. "
                        "Timeline > Stop comparing ends it."));

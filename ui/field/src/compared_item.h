@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Robots and ball of another session at the moment that is compared: hatched discs, so that they
-// are told from robots, from what robots believe and from another source's dotted rings without
-// colour.
+// Robots and ball of another session at the moment that is compared: hatched discs with a mark
+// behind their names, so that they are told from robots, from what robots believe and from another
+// source's dotted rings without colour.
 
 #include <vector>
 
@@ -15,8 +15,10 @@ namespace pitchboard::ui {
 
 class ComparedItem : public FieldItem {
  public:
-  using FieldItem::FieldItem;
-  /// Null: nothing is drawn.
+  /// `number`: of the session (session_mark.h), which gives colour and mark; 0: the colours are
+  /// those of the teams.
+  ComparedItem(const FieldStyle* style, int number) : FieldItem(style), m_number(number) {}
+  /// Not null.
   void setFrame(const FramePtr& frame);
   int robots() const { return static_cast<int>(m_robots.size()); }
   QRectF boundingRect() const override;
@@ -31,6 +33,7 @@ class ComparedItem : public FieldItem {
   };
   void paintRobot(QPainter* painter, const Robot& robot) const;
 
+  int m_number;
   std::vector<Robot> m_robots;
   std::optional<Point> m_ball;
 };

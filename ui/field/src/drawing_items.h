@@ -12,7 +12,7 @@
 
 #include <base/robot_key.h>
 #include <base/team_color.h>
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
 
 #include "field_item.h"
 

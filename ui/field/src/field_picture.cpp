@@ -9,6 +9,7 @@
 #include <ui/base/robot_text.h>
 #include <ui/base/scoreboard_state.h>
 #include <ui/base/theme.h>
+#include <ui/sources/note_painting.h>
 
 #include "field_background.h"
 
@@ -16,7 +17,8 @@ namespace pitchboard::ui {
 
 namespace {
 
-void paintField(FieldScene& scene, QPainter& painter, QSize size) {
+void paintField(FieldScene& scene, QPainter& painter, QSize size,
+                std::span<const telemetry::DrawnNote> notes) {
   const FieldStyle before = scene.style();
   const sim::FieldSpec& field = before.field;
   const double scale = std::min(size.width() / (field.length + 2 * field.border),
@@ -40,6 +42,7 @@ void paintField(FieldScene& scene, QPainter& painter, QSize size) {
   });
   if (!scene.frame()) return;
   painter.resetTransform();
+  paintFieldNotes(painter, notes, toPicture, scene.frame()->snapshot.time);
   const int high = std::max(static_cast<int>(field.border * scale * 0.4), 11);
   const double top = (size.height() - (field.width + 2 * field.border) * scale) / 2;
   const QFont font = fieldFont(high, true);
@@ -78,14 +81,14 @@ QSize pictureSize(const sim::FieldSpec& field, QSize within) {
   return {std::max(size.width() & ~1, 2), std::max(size.height() & ~1, 2)};
 }
 
-QImage paintPicture(FieldScene& scene, QSize size) {
+QImage paintPicture(FieldScene& scene, QSize size, std::span<const telemetry::DrawnNote> notes) {
   QImage image(size, QImage::Format_RGB32);
   QPainter painter(&image);
-  paintField(scene, painter, size);
+  paintField(scene, painter, size, notes);
   return image;
 }
 
-QByteArray svgPicture(FieldScene& scene, QSize size) {
+QByteArray svgPicture(FieldScene& scene, QSize size, std::span<const telemetry::DrawnNote> notes) {
   QByteArray text;
   QBuffer buffer(&text);
   QSvgGenerator generator;
@@ -95,12 +98,13 @@ QByteArray svgPicture(FieldScene& scene, QSize size) {
   generator.setTitle(QStringLiteral("The field"));
   QPainter painter;
   if (!painter.begin(&generator)) return {};
-  paintField(scene, painter, size);
+  paintField(scene, painter, size, notes);
   painter.end();
   return text;
 }
 
-FilmPainter::FilmPainter(const FieldStyle& style) {
+FilmPainter::FilmPainter(const FieldStyle& style, std::vector<telemetry::DrawnNote> notes)
+    : m_notes(std::move(notes)) {
   m_scene.changeStyle([&style](FieldStyle& own) {
     own.layers = style.layers;
     own.drawings = style.drawings;
@@ -114,7 +118,7 @@ FilmPainter::FilmPainter(const FieldStyle& style) {
 
 QImage FilmPainter::paint(const FramePtr& frame, QSize size) {
   m_scene.showFrame(frame);
-  return paintPicture(m_scene, size);
+  return paintPicture(m_scene, size, m_notes);
 }
 
 }  // namespace pitchboard::ui

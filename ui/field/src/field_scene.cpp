@@ -185,7 +185,6 @@ FieldScene::FieldScene(QObject* parent)
       m_heldBall(new BallItem(&m_style)),
       m_teamBalls(new TeamBallsItem(&m_style)),
       m_drawings(std::make_unique<DrawingItems>(this, &m_style, drawingHeight)),
-      m_compared(new ComparedItem(&m_style)),
       m_heat(new HeatItem(&m_style)),
       m_eopra(new SectorItem(&m_style, SectorItem::Kind::Eopra)),
       m_starVars(new SectorItem(&m_style, SectorItem::Kind::StarVars)),
@@ -195,10 +194,9 @@ FieldScene::FieldScene(QObject* parent)
   // Everything moves all the time: an index would cost more than it saves.
   setItemIndexMethod(QGraphicsScene::NoIndex);
   const std::pair<QGraphicsItem*, Height> items[] = {
-      {m_ball, ballHeight},       {m_heldBall, toolHeight}, {m_teamBalls, ballHeight},
-      {m_compared, beliefHeight}, {m_heat, heatHeight},     {m_eopra, sectorHeight},
-      {m_starVars, sectorHeight}, {m_names, nameHeight},    {m_ruler, toolHeight},
-      {m_band, toolHeight}};
+      {m_ball, ballHeight},  {m_heldBall, toolHeight}, {m_teamBalls, ballHeight},
+      {m_heat, heatHeight},  {m_eopra, sectorHeight},  {m_starVars, sectorHeight},
+      {m_names, nameHeight}, {m_ruler, toolHeight},    {m_band, toolHeight}};
   for (const auto& [item, height] : items) {
     item->setZValue(height);
     item->setVisible(false);
@@ -371,8 +369,20 @@ void FieldScene::showOther(const FramePtr& frame) {
   if (m_frame) showFrame(m_frame);
 }
 
-void FieldScene::showCompared(const FramePtr& frame) {
-  m_compared->setFrame(frame);
+void FieldScene::showCompared(int number, const FramePtr& frame) {
+  auto known = m_compared.find(number);
+  if (!frame) {
+    if (known == m_compared.end()) return;
+    delete known->second;
+    m_compared.erase(known);
+    return;
+  }
+  if (known == m_compared.end()) {
+    known = m_compared.emplace(number, new ComparedItem(&m_style, number)).first;
+    known->second->setZValue(beliefHeight);
+    addItem(known->second);
+  }
+  known->second->setFrame(frame);
 }
 
 void FieldScene::showHeld(const std::vector<RobotPlacement>& robots, std::optional<Point> ball) {

@@ -70,8 +70,9 @@ class FieldScene : public QGraphicsScene {
   }
   /// Another source's view of the same robots, drawn beside this one's; null: none.
   void showOther(const FramePtr& frame);
-  /// A moment of another session, drawn over this one; null: none.
-  void showCompared(const FramePtr& frame);
+  /// A moment of another session, drawn over this one; null: none. `number`: of the session, 0 for
+  /// an abandoned future.
+  void showCompared(int number, const FramePtr& frame);
   /// Draws robots and ball where the user holds them, faint, beside what the match makes of them;
   /// neither: nothing is held.
   void showHeld(const std::vector<RobotPlacement>& robots, std::optional<Point> ball = {});
@@ -133,7 +134,7 @@ class FieldScene : public QGraphicsScene {
   std::vector<std::unique_ptr<RobotItem>> m_held;
   TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
-  ComparedItem* m_compared;
+  std::map<int, ComparedItem*> m_compared;  // by the session's number
   HeatItem* m_heat;
   SectorItem* m_eopra;
   SectorItem* m_starVars;

@@ -10,6 +10,7 @@
 
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>
+#include <ui/sources/note_board.h>
 
 #include "drawings_menu.h"
 #include "field_canvas.h"
@@ -129,8 +130,16 @@ void FieldTools::makeStrip(QWidget* field) {
   for (QAction* action : m_actions.tools) m_strip->addAction(action);
   addTeams();
   m_strip->addSeparator();
-  addLayersButton();
+  m_afterTools = addLayersButton();
   m_strip->addActions({m_actions.flip, m_actions.fit, m_actions.publishedKeys, m_actions.showKeys});
+}
+
+void FieldTools::addNotes(NoteBoard& board) {
+  for (QAction* tool : board.tools()) m_strip->insertAction(m_afterTools, tool);
+  m_strip->insertSeparator(m_afterTools);
+  for (QAction* tool : m_actions.tools) {
+    connect(tool, &QAction::triggered, &board, [&board] { board.setTool({}); });
+  }
 }
 
 void FieldTools::addTeams() {
@@ -151,7 +160,7 @@ void FieldTools::addTeams() {
   button->setPopupMode(QToolButton::DelayedPopup);
 }
 
-void FieldTools::addLayersButton() {
+QAction* FieldTools::addLayersButton() {
   auto* layersButton = new QToolButton;
   layersButton->setIcon(themedIcon(QStringLiteral("layer-visible-on")));
   layersButton->setToolTip(QStringLiteral("Choose what the field shows"));
@@ -162,7 +171,7 @@ void FieldTools::addLayersButton() {
   menu->addSeparator();
   for (QAction* option : m_actions.options) menu->addAction(option);
   layersButton->setMenu(menu);
-  m_strip->addWidget(layersButton);
+  return m_strip->addWidget(layersButton);
 }
 
 void FieldTools::showLayer(FieldLayer layer, bool shown) {

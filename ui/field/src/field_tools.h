@@ -20,6 +20,7 @@ class DrawingsMenu;
 class FieldCanvas;
 class FieldPointer;
 class FieldScene;
+class NoteBoard;
 
 class FieldTools : public QObject {
   Q_OBJECT
@@ -28,6 +29,8 @@ class FieldTools : public QObject {
 
   QToolBar* strip() const { return m_strip; }
   const FieldActions& actions() const { return m_actions; }
+  /// Adds the tools that draw notes.
+  void addNotes(NoteBoard& board);
   QAction* flip() const { return m_actions.flip; }
   /// The tool that adds robots.
   QAction* adding() const { return m_adding; }
@@ -39,7 +42,7 @@ class FieldTools : public QObject {
   void makeViews();
   void makeStrip(QWidget* field);
   void addTeams();
-  void addLayersButton();
+  QAction* addLayersButton();
   void showLayer(FieldLayer layer, bool shown);
 
   FieldScene* m_scene;
@@ -49,6 +52,7 @@ class FieldTools : public QObject {
   FieldActions m_actions{};
   DrawingsMenu* m_drawings = nullptr;
   QAction* m_adding = nullptr;
+  QAction* m_afterTools = nullptr;
 };
 
 }  // namespace pitchboard::ui

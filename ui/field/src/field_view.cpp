@@ -14,6 +14,8 @@
 #include <ui/base/theme.h>
 #include <ui/field/field_keys.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/note_board.h>
+#include <ui/sources/note_layer.h>
 #include "field_picture.h"
 #include "field_scene.h"
 
@@ -65,6 +67,8 @@ struct FieldView::Private {
   FieldPointer* pointer;
   FieldCanvas* canvas;
   FieldTools* tools;
+  NoteBoard* board = nullptr;
+  std::vector<telemetry::DrawnNote> drawnNotes;  // of pictures
   bool rightShift = false;
 };
 
@@ -176,6 +180,10 @@ void FieldView::Private::openMenu(QPoint globalPosition, QPointF metres) {
   auto* menu = new QMenu(q);
   menu->setAttribute(Qt::WA_DeleteOnClose);
   fillFieldMenu(menu, scene, controller, metres, menuActions());
+  if (board != nullptr) {
+    menu->addSeparator();
+    addNoteTools(menu, *board);
+  }
   if (menu->isEmpty()) {
     delete menu;
     return;
@@ -260,11 +268,27 @@ void FieldView::showFrame(const FramePtr& frame) {
 void FieldView::showOther(const FramePtr& frame) {
   d->scene->showOther(frame);
 }
-void FieldView::showCompared(const FramePtr& frame) {
-  d->scene->showCompared(frame);
+void FieldView::showCompared(int number, const FramePtr& frame) {
+  d->scene->showCompared(number, frame);
 }
 void FieldView::showHeat(const BallHeatPtr& heat) {
   d->scene->showHeat(heat);
+}
+
+void FieldView::showNotes(NoteBoard* board) {
+  d->board = board;
+  QWidget* viewport = d->canvas->viewport();
+  new NoteLayer(board,
+                {telemetry::NotePlace::Field, [](const QPointF&) { return NoteGround::Owner(); },
+                 [canvas = d->canvas](const std::string&) { return canvas->viewportTransform(); },
+                 [viewport] { return QRectF(viewport->rect()); }},
+                viewport, d->canvas);
+  d->tools->addNotes(*board);
+  connect(board, &NoteBoard::changed, this, [this, board] { d->drawnNotes = board->notes(); });
+}
+
+void FieldView::setDrawnNotes(std::vector<telemetry::DrawnNote> notes) {
+  d->drawnNotes = std::move(notes);
 }
 
 std::vector<RobotUid> FieldView::selection() const {
@@ -342,13 +366,13 @@ QSize FieldView::pictureSize(QSize within) const {
   return ui::pictureSize(d->scene->style().field, within);
 }
 QImage FieldView::picture(QSize size) const {
-  return paintPicture(*d->scene, size);
+  return paintPicture(*d->scene, size, d->drawnNotes);
 }
 QByteArray FieldView::svgPicture(QSize size) const {
-  return ui::svgPicture(*d->scene, size);
+  return ui::svgPicture(*d->scene, size, d->drawnNotes);
 }
 std::unique_ptr<FramePainter> FieldView::framePainter() const {
-  return std::make_unique<FilmPainter>(d->scene->style());
+  return std::make_unique<FilmPainter>(d->scene->style(), d->drawnNotes);
 }
 
 }  // namespace pitchboard::ui

@@ -6,9 +6,9 @@
 
 #include <base/angles.h>
 #include <robotlink/frame/match_frame.h>
-#include <robotlink/scenario/scenario.h>
 #include <ui/base/referee_text.h>
 #include <ui/base/robot_text.h>
+#include <ui/sources/decider_text.h>
 #include <ui/sources/pose_difference.h>
 
 #include "field_style.h"
@@ -45,11 +45,8 @@ QString hoverText(const link::MatchFrame& frame, RobotUid id) {
   QStringList lines;
   QString head = robotName(*robot);
   if (!robot->ownName.empty()) head += QLatin1Char(' ') + QString::fromStdString(robot->ownName);
-  if (!robot->behaviour.empty()) {
-    head += robot->behaviour == link::noBehaviour
-                ? QStringLiteral(" · team program")
-                : QStringLiteral(" · ") + capitalised(robot->behaviour);
-  }
+  if (const QString decider = deciderText(*robot); !decider.isEmpty())
+    head += QStringLiteral(" · ") + decider;
   lines << head;
   lines << QStringLiteral("Action: %1").arg(actionText(robot->decided.value_or(robot->action)));
   if (robot->cognitionDebug && robot->cognitionDebug->path &&

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/sockets/udp_receiver.h>
 #include <ui/sources/live_controller.h>
 
 namespace pitchboard::ui {

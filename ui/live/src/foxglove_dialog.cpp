@@ -4,6 +4,7 @@
 #include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFormLayout>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -16,6 +17,7 @@
 #include <algorithm>
 
 #include <ui/base/dialog_size.h>
+#include <ui/base/file_dialog.h>
 #include <ui/base/in_place_message.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/table_style.h>
@@ -114,7 +116,57 @@ QWidget* FoxgloveDialog::makeForm() {
   form->addRow(QStringLiteral("Address"), m_address);
   form->addRow(QStringLiteral("Robot"), m_robot);
   form->addRow(QStringLiteral("Team"), m_team);
+  form->addRow(QStringLiteral("Mapping"), makeMappingRow());
   return widget;
+}
+
+QWidget* FoxgloveDialog::makeMappingRow() {
+  auto* widget = new QWidget(this);
+  m_mapping = new QLineEdit(widget);
+  m_mapping->setObjectName(QStringLiteral("foxgloveMapping"));
+  m_mapping->setPlaceholderText(QStringLiteral("usual messages of ROS"));
+  m_mapping->setToolTip(
+      QStringLiteral("File that says which topics are robots, ball, battery, log and referee"));
+  auto* browse = new QPushButton(QStringLiteral("Choose…"), widget);
+  browse->setAutoDefault(false);
+  connect(browse, &QPushButton::clicked, this, &FoxgloveDialog::chooseMapping);
+  auto* edit = new QPushButton(QStringLiteral("Map topics…"), widget);
+  edit->setObjectName(QStringLiteral("foxgloveMapTopics"));
+  edit->setAutoDefault(false);
+  connect(edit, &QPushButton::clicked, this, &FoxgloveDialog::editMapping);
+  auto* row = new QHBoxLayout(widget);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(m_mapping, 1);
+  row->addWidget(browse);
+  row->addWidget(edit);
+  return widget;
+}
+
+void FoxgloveDialog::chooseMapping() {
+  const QString file = askToOpen(this, QStringLiteral("Choose mapping"),
+                                 QStringLiteral("Mappings (*.json);;All files (*)"));
+  if (!file.isEmpty()) m_mapping->setText(file);
+}
+
+void FoxgloveDialog::editMapping() {
+  const auto address = telemetry::parseFoxgloveAddress(m_address->text().trimmed().toStdString());
+  if (!address) {
+    showProblem(QString::fromStdString(address.error().message));
+    return;
+  }
+  emit mappingWanted(QString::fromStdString(address->text()), m_mapping->text().trimmed());
+}
+
+void FoxgloveDialog::setMapping(const QString& address, const QString& file) {
+  std::vector<link::FoxgloveSource> sources = m_live->options().foxglove;
+  const auto known = std::ranges::find_if(sources, [&](const link::FoxgloveSource& one) {
+    return QString::fromStdString(one.address.text()) == address;
+  });
+  if (m_address->text().isEmpty() || known != sources.end()) m_address->setText(address);
+  m_mapping->setText(file);
+  if (known == sources.end()) return;  // it is added with the mapping
+  known->mappingFile = file.toStdString();
+  use(sources);
 }
 
 void FoxgloveDialog::refresh() {
@@ -150,11 +202,15 @@ void FoxgloveDialog::choose() {
   m_address->setText(QString::fromStdString(source.address.text()));
   m_robot->setValue(source.robot);
   m_team->setCurrentIndex(m_team->findData(static_cast<int>(source.team)));
+  m_mapping->setText(QString::fromStdString(source.mappingFile));
 }
 
 bool FoxgloveDialog::use(const std::vector<link::FoxgloveSource>& sources) {
   if (const auto good = link::validate(sources); !good) {
-    return showProblem(QString::fromStdString(good.error().message));
+    // What is wrong with a mapping is in its file; other mistakes are in the form above.
+    const bool isInFile = !good.error().context.starts_with("--foxglove");
+    return showProblem(
+        QString::fromStdString(isInFile ? good.error().text() : good.error().message));
   }
   link::LiveOptions options = m_live->options();
   options.foxglove = sources;
@@ -173,6 +229,7 @@ bool FoxgloveDialog::add() {
   if (known == sources.end()) known = sources.insert(known, link::FoxgloveSource{*address});
   known->robot = m_robot->value();
   known->team = static_cast<TeamColor>(m_team->currentData().toInt());
+  known->mappingFile = m_mapping->text().trimmed().toStdString();
   return use(sources);
 }
 
@@ -189,12 +246,13 @@ bool FoxgloveDialog::showProblem(const QString& sentence) {
   return false;
 }
 
-void showFoxgloveDialog(LiveController* live, QSettings* settings, QWidget* window) {
+FoxgloveDialog* showFoxgloveDialog(LiveController* live, QSettings* settings, QWidget* window) {
   auto* dialog = window->findChild<FoxgloveDialog*>();
   if (dialog == nullptr) dialog = new FoxgloveDialog(live, settings, window);
   dialog->show();
   dialog->raise();
   dialog->activateWindow();
+  return dialog;
 }
 
 }  // namespace pitchboard::ui

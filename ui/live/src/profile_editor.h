@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-#include <telemetry/wire/profile.h>
+#include <telemetry/formats/profile.h>
 
 class QComboBox;
 class QFormLayout;

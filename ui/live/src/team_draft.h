@@ -6,7 +6,7 @@
 
 #include <QString>
 
-#include <telemetry/wire/team_setup.h>
+#include <telemetry/monitor/team_setup.h>
 
 namespace pitchboard::ui {
 

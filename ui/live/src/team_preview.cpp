@@ -4,7 +4,7 @@
 #include <QStringList>
 
 #include <robotlink/live/live_teams.h>
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 namespace pitchboard::ui {
 namespace {

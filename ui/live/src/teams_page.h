@@ -7,7 +7,7 @@
 #include <QWidget>
 #include <vector>
 
-#include <telemetry/wire/team_setup.h>
+#include <telemetry/monitor/team_setup.h>
 
 #include "arrivals.h"
 #include "team_draft.h"

@@ -7,10 +7,14 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/note_board.h>
+#include <ui/sources/note_layer.h>
 
 #include "side_by_side.h"
 #include "time_gestures.h"
@@ -22,6 +26,12 @@ namespace {
 constexpr int pixelsPerValueStep = 18;  // px of the mock
 constexpr int lowestChart = 54;         // lower ones cannot be read: the plots scroll instead
 
+/// What notes on this curve belong to.
+QString noteOwner(const Curve& curve, const PlotFeed& feed) {
+  return curve.spec().kind == CurveKind::Variable && !curve.spec().inputs.isEmpty()
+             ? feed.presentName(curve.spec().inputs[0])
+             : curve.name();
+}
 }  // namespace
 
 ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
@@ -57,6 +67,7 @@ ChartPane::ChartPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     options.autoValues = options.autoRight = true;
     setOptions(options);
   });
+  showNotes();
 }
 
 QWidget* ChartPane::surface() const {
@@ -150,6 +161,7 @@ void ChartPane::draw() {
   m_chart->setTitles({}, m_spec.valueTitle, hasRightAxis() ? m_spec.rightTitle : QString());
   shape();
   m_chart->redraw();
+  if (m_notes != nullptr) m_notes->refresh();
   const std::pair wanted(wantedLeft(), wantedRight());
   if (wanted == before && wanted == m_wanted) return;
   m_wanted = wanted;
@@ -169,25 +181,36 @@ ChartPane::Extent ChartPane::extent(bool right) const {
     const AxisPlan::Place& place = m_axes.places[i];
     if (place.right != right) continue;
     all.take(m_traces[i], place.factor);
-    all.take(m_comparedTraces[i], place.factor);
+    for (std::size_t k = i; k < m_comparedTraces.size(); k += m_curves.size()) {
+      all.take(m_comparedTraces[k], place.factor);
+    }
   }
   return all;
 }
 
-/// Where the compared session has the variables.
+std::span<const CurveTrace> ChartPane::comparedTraces(std::size_t session) const {
+  const std::size_t first = session * m_curves.size();
+  if (first >= m_comparedTraces.size()) return {};
+  return std::span(m_comparedTraces).subspan(first, m_curves.size());
+}
+
+/// Where compared sessions have the variables.
 void ChartPane::traceCompared(telemetry::TimeRange range, int columns) {
+  const std::vector<ComparedRows>& sessions = m_feed->compared();
   m_comparedTraces.clear();
-  m_comparedTraces.resize(m_curves.size());
-  const double offset = m_feed->comparedOffset();
-  for (std::size_t i = 0; i < m_curves.size(); ++i) {
-    const ColumnView view = m_curves[i].compared(*m_feed);
-    if (!view || m_curves[i].isHidden()) continue;
+  m_comparedTraces.resize(sessions.size() * m_curves.size());
+  sideBySide(static_cast<int>(m_comparedTraces.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    const ComparedRows& session = sessions[i / m_curves.size()];
+    const Curve::Compared* curve = m_curves[i % m_curves.size()].compared(session);
+    if (curve == nullptr || !curve->view) return;
+    const double offset = session.offset;
     CurveTrace& trace = m_comparedTraces[i];
-    trace = traceOf(view, {range.begin - offset, range.end - offset}, columns);
+    trace = traceOf(curve->view, session.ownTime(range), columns);
     for (telemetry::Sample& sample : trace.samples) sample.time += offset;
     for (CurveTrace::Column& column : trace.columns) column.time += offset;
     trace.heldUntil += offset;
-  }
+  });
 }
 
 void ChartPane::shape() {
@@ -206,11 +229,13 @@ void ChartPane::shape() {
     scale.limits = {scale.limits.low / place.factor, scale.limits.high / place.factor};
     return scale;
   };
-  for (const Curve& curve : m_curves) {
-    const CurveSpec& spec = curve.spec();
-    m_shapes.push_back({{},
-                        {curve.color(), spec.style, spec.width * pixel, points > manyPoints, pixel,
-                         curveDash(spec.colorNumber)}});
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    const CurveSpec& spec = m_curves[i].spec();
+    const double width = spec.width * pixel * (isPointedOut(i) ? pointedOutWidth : 1.0);
+    m_shapes.push_back(
+        {{},
+         {m_curves[i].color(), spec.style, width, points > manyPoints && !isPointedOut(i), pixel,
+          curveDash(spec.colorNumber)}});
   }
   sideBySide(static_cast<int>(m_shapes.size()), [&](int number) {
     const auto i = static_cast<std::size_t>(number);
@@ -219,22 +244,36 @@ void ChartPane::shape() {
   });
   m_caption = {captions().join(QStringLiteral(" · ")), m_chart->plotArea().adjusted(4, 2, -4, -2),
                themeFont(TypeRole::Secondary), palette().color(QPalette::PlaceholderText)};
-  m_comparedShapes.assign(m_curves.size(), {});
+  m_comparedShapes.assign(m_comparedTraces.size(), {});
+  const QColor base = palette().color(QPalette::Base);
   for (std::size_t i = 0; i < m_comparedShapes.size(); ++i) {
-    // Thinner and paler than the curve beside it; the same hue says which one it belongs to.
-    Shape& other = m_comparedShapes[i];
-    other.look = m_shapes[i].look;
-    other.look.color =
-        mixedColor(m_shapes[i].look.color, palette().color(QPalette::Base), comparedPaleness);
-    other.look.width = m_shapes[i].look.width * comparedWidth;
-    if (m_feed->comparesFuture()) {
-      // Never taken for the present, where they lie close together.
-      other.look.dash = futureDash;
-      other.look.width = m_shapes[i].look.width;
-    }
-    other.lines = polylines(m_comparedTraces[i], m_shapedFor, values(i),
-                            other.look.style == CurveStyle::Steps);
+    const std::size_t curve = i % m_curves.size();
+    TraceLook& paint = m_comparedShapes[i].look = m_shapes[curve].look;
+    const ComparedLook look =
+        comparedLook(m_feed->compared()[i / m_curves.size()], curve, paint.color, base);
+    paint.color = look.color;
+    paint.width *= look.width;
+    paint.dash = look.dash;
   }
+  sideBySide(static_cast<int>(m_comparedShapes.size()), [&](int number) {
+    const auto i = static_cast<std::size_t>(number);
+    const std::size_t curve = i % m_curves.size();
+    Shape& other = m_comparedShapes[i];
+    other.lines = polylines(m_comparedTraces[i], m_shapedFor, values(curve),
+                            other.look.style == CurveStyle::Steps);
+  });
+}
+
+/// A session that ends before what is shown is not drawn, nor is a future that begins behind it.
+bool ChartPane::isDrawn(const ComparedRows& session, std::size_t index) const {
+  const telemetry::TimeRange shown = m_feed->time()->range();
+  const double from = std::max(session.from, shown.begin);
+  return shown.end > from &&
+         std::ranges::any_of(comparedTraces(index), [from](const CurveTrace& trace) {
+           const auto isBehind = [from](const auto& point) { return point.time > from; };
+           return trace.any && (std::ranges::any_of(trace.samples, isBehind) ||
+                                std::ranges::any_of(trace.columns, isBehind));
+         });
 }
 
 QStringList ChartPane::captions() const {
@@ -248,18 +287,22 @@ QStringList ChartPane::captions() const {
   } else if (any(&CurveTrace::coarse)) {
     all << QStringLiteral("envelope: zoom in to see every sample");
   }
-  // A session that ends before what is shown is not drawn, nor is a future that begins behind it.
-  const telemetry::TimeRange shown = m_feed->time()->range();
-  const double from = std::max(m_feed->comparedFrom(), shown.begin);
-  const auto isDrawn = [from](const CurveTrace& trace) {
-    const auto isBehind = [from](const auto& point) { return point.time > from; };
-    return trace.any && (std::ranges::any_of(trace.samples, isBehind) ||
-                         std::ranges::any_of(trace.columns, isBehind));
-  };
-  if (shown.end > from && std::ranges::any_of(m_comparedTraces, isDrawn)) {
-    all << (m_feed->comparesFuture() ? QStringLiteral("dashed: ") : QStringLiteral("thin: ")) +
-               m_feed->comparedCaption();
+  QStringList thin;
+  for (std::size_t i = 0; i < m_feed->compared().size(); ++i) {
+    const ComparedRows& session = m_feed->compared()[i];
+    if (!isDrawn(session, i)) continue;
+    if (session.isFuture())
+      all << QStringLiteral("dashed: ") + session.caption;
+    else
+      thin << sessionMark(session.number) + QLatin1Char(' ') + session.caption;
   }
+  constexpr qsizetype maxNamed = 3;
+  if (thin.size() > maxNamed) {
+    const qsizetype more = thin.size() - maxNamed + 1;
+    thin = thin.mid(0, maxNamed - 1);
+    thin << QStringLiteral("%1 more").arg(more);
+  }
+  if (!thin.isEmpty()) all << QStringLiteral("thin: ") + thin.join(QStringLiteral(", "));
   return all;
 }
 
@@ -302,7 +345,58 @@ void ChartPane::paintCurves(QPainter& painter) const {
   }
 }
 
+void ChartPane::showNotes() {
+  if (m_feed->notes() == nullptr) return;
+  const auto owner = [this](const QPointF& at) -> std::optional<NoteGround::Owner> {
+    const int curve = curveAt(at);
+    if (curve < 0) return {};
+    const Curve& nearest = m_curves[static_cast<std::size_t>(curve)];
+    return NoteGround::Owner{noteOwner(nearest, *m_feed).toStdString(),
+                             nearest.unit().toStdString()};
+  };
+  m_notes = new NoteLayer(m_feed->notes(),
+                          {telemetry::NotePlace::Plot, owner,
+                           [this](const std::string& variable) { return noteTransform(variable); },
+                           [this] { return m_chart->plotArea(); }},
+                          m_chart->viewport(), m_chart);
+}
+
+int ChartPane::curveAt(const QPointF& at) const {
+  const double time = timeAxis().time(at.x());
+  int nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    if (m_curves[i].isHidden() || m_curves[i].isWaiting()) continue;
+    const AxisPlan::Place& place = m_axes.places[i];
+    const ValueScale scale = place.right ? rightScale() : valueScale();
+    const auto value = m_curves[i].valueAt(time);
+    // Beside its own gap a curve is farther than any other.
+    const double off = value ? std::abs(scale.toY(*value * place.factor) - at.y()) : 1e9;
+    if (off < least) {
+      least = off;
+      nearest = static_cast<int>(i);
+    }
+  }
+  return nearest;
+}
+
+std::optional<QTransform> ChartPane::noteTransform(const std::string& variable) const {
+  const QString name = QString::fromStdString(variable);
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    if (m_curves[i].isHidden() || noteOwner(m_curves[i], *m_feed) != name) continue;
+    const AxisPlan::Place& place = m_axes.places[i];
+    const ValueScale scale = place.right ? rightScale() : valueScale();
+    const TimeAxis axis = timeAxis();
+    const double perSecond = 1.0 / axis.secondsPerPixel(),
+                 perUnit = scale.toY(place.factor) - scale.toY(0.0);
+    if (!std::isfinite(perSecond) || !std::isfinite(perUnit) || perUnit == 0.0) return {};
+    return QTransform(perSecond, 0, 0, perUnit, axis.pixel(0.0), scale.toY(0.0));
+  }
+  return {};
+}
+
 void ChartPane::extendMenu(QMenu* menu) {
+  if (m_feed->notes() != nullptr) addNoteTools(menu, *m_feed->notes());
   QAction* automatic = menu->addAction(QStringLiteral("Fit the value axis automatically"));
   automatic->setCheckable(true);
   automatic->setChecked(m_spec.autoValues && (m_spec.autoRight || !hasRightAxis()));

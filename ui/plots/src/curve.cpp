@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <ui/sources/linked_time.h>
 
@@ -38,13 +40,14 @@ void Curve::setSpec(const CurveSpec& spec) {
   if (sameData && (m_derived || spec.kind == CurveKind::Variable)) return;
   m_view = m_ordinate = {};
   m_derived.reset();
-  m_comparedDerived.reset();
+  m_compared.clear();
   if (spec.kind != CurveKind::Variable) m_derived = std::make_unique<DerivedSeries>(spec);
 }
 
 void Curve::update(PlotFeed& feed) {
   m_note.clear();
   m_faulty = false;
+  updateCompared(feed);
   if (m_derived) {
     m_derived->update([&feed](const QString& name) { return feed.find(name); }, feed.generation(),
                       feed.time()->range());
@@ -61,27 +64,38 @@ void Curve::update(PlotFeed& feed) {
   if (!m_view) m_note = missingText(m_spec.inputs, feed);
 }
 
-ColumnView Curve::compared(PlotFeed& feed) {
-  if (m_spec.kind == CurveKind::Variable) return feed.compared(m_spec.inputs.value(0));
-  if (!feed.hasCompared()) {
-    m_comparedDerived.reset();
-    return {};
+// Sessions that go on keep what was computed for them.
+void Curve::updateCompared(const PlotFeed& feed) {
+  std::vector<Compared> before = std::exchange(m_compared, {});
+  for (const ComparedRows& session : feed.compared()) {
+    Compared& now = m_compared.emplace_back(Compared{session.id, {}, {}});
+    if (isHidden()) continue;
+    if (m_spec.kind == CurveKind::Variable) {
+      now.view = feed.find(session, m_spec.inputs.value(0));
+      if (m_spec.inputs.size() < 2) continue;
+      now.ordinate = feed.find(session, m_spec.inputs[1]);
+      if (!now.ordinate) now.view = {};
+      continue;
+    }
+    const auto known = std::ranges::find(before, session.id, &Compared::id);
+    if (known != before.end()) now.derived = std::move(known->derived);
+    if (!now.derived) now.derived = std::make_shared<DerivedSeries>(m_spec);
+    now.derived->update([&](const QString& name) { return feed.find(session, name); },
+                        session.generation, session.ownTime(feed.time()->range()));
+    if (!session.isHidden) now.view = now.derived->view();
   }
-  if (!m_comparedDerived) m_comparedDerived = std::make_unique<DerivedSeries>(m_spec);
-  const telemetry::TimeRange shown = feed.time()->range();
-  m_comparedDerived->update(
-      [&feed](const QString& name) { return feed.compared(name); }, feed.comparedGeneration(),
-      {shown.begin - feed.comparedOffset(), shown.end - feed.comparedOffset()});
-  return m_comparedDerived->view();
 }
 
-ColumnView Curve::comparedOrdinate(const PlotFeed& feed) const {
-  return m_spec.inputs.size() > 1 ? feed.compared(m_spec.inputs[1]) : ColumnView{};
+const Curve::Compared* Curve::compared(const ComparedRows& session) const {
+  const auto found = std::ranges::find(m_compared, session.id, &Compared::id);
+  return found == m_compared.end() ? nullptr : &*found;
 }
 
 bool Curve::isWorking() const {
   return (m_derived && m_derived->isWorking()) ||
-         (m_comparedDerived && m_comparedDerived->isWorking());
+         std::ranges::any_of(m_compared, [](const Compared& session) {
+           return session.derived && session.derived->isWorking();
+         });
 }
 
 QString Curve::unit() const {
@@ -93,35 +107,46 @@ QColor Curve::color() const {
   return m_spec.color.isValid() ? m_spec.color : curveColor(m_spec.colorNumber);
 }
 
-std::optional<double> Curve::valueAt(std::optional<double> time) const {
-  if (!m_view) return {};
-  const auto sample =
-      time ? m_view.group->at(m_view.column, *time) : m_view.group->latest(m_view.column);
+std::optional<double> valueIn(const ColumnView& view, std::optional<double> time) {
+  if (!view) return {};
+  const auto sample = time ? view.group->at(view.column, *time) : view.group->latest(view.column);
   // What is no longer drawn is no longer said either.
   const bool old = sample && time && *time - sample->time > maxBridge;
   if (!sample || old || std::isnan(sample->value)) return {};
   return sample->value;
 }
 
-QString Curve::codeText(double value) const {
+QString codeTextIn(const ColumnView& view, double value) {
   if (!std::isfinite(value)) return QStringLiteral("–");
   const auto code = static_cast<std::int32_t>(std::lround(std::clamp(value, -2e9, 2e9)));
-  if (m_view) {
-    const auto& labels = m_view.info().labels;
+  if (view) {
+    const auto& labels = view.info().labels;
     if (const auto word = labels.find(code); word != labels.end()) {
       return QString::fromStdString(word->second);
     }
-    if (m_view.info().kind == telemetry::ColumnKind::Flag) {
+    if (view.info().kind == telemetry::ColumnKind::Flag) {
       return code != 0 ? QStringLiteral("on") : QStringLiteral("off");
     }
   }
   return QString::number(code);
 }
 
-QString Curve::valueTextAt(std::optional<double> time) const {
-  const auto value = valueAt(time);
+QString valueTextIn(const ColumnView& view, std::optional<double> time) {
+  const auto value = valueIn(view, time);
   if (!value) return QStringLiteral("–");
-  return m_view.isCoded() ? codeText(*value) : valueText(*value);
+  return view.isCoded() ? codeTextIn(view, *value) : valueText(*value);
+}
+
+std::optional<double> Curve::valueAt(std::optional<double> time) const {
+  return valueIn(m_view, time);
+}
+
+QString Curve::codeText(double value) const {
+  return codeTextIn(m_view, value);
+}
+
+QString Curve::valueTextAt(std::optional<double> time) const {
+  return valueTextIn(m_view, time);
 }
 
 }  // namespace pitchboard::ui

@@ -9,6 +9,7 @@
 #include <QList>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <ui/plots/plot_layout.h>
 
@@ -41,9 +42,14 @@ class Curve {
   const ColumnView& view() const { return m_view; }
   /// Xy: the second input, over view().
   const ColumnView& ordinate() const { return m_ordinate; }
-  /// The same curve of the compared session, at the times of there; nothing when it has none.
-  ColumnView compared(PlotFeed& feed);
-  ColumnView comparedOrdinate(const PlotFeed& feed) const;
+  /// The same curve in a compared session, at the times of there.
+  struct Compared {
+    quint64 id = 0;             ///< of the session
+    ColumnView view, ordinate;  ///< nothing where it has none
+    std::shared_ptr<DerivedSeries> derived = nullptr;
+  };
+  /// As of the last update; null for a session that came later.
+  const Compared* compared(const ComparedRows& session) const;
 
   QString name() const { return curveName(m_spec); }
   QString unit() const;
@@ -57,13 +63,23 @@ class Curve {
   QString codeText(double value) const;
 
  private:
+  void updateCompared(const PlotFeed& feed);
+
   CurveSpec m_spec;
   ColumnView m_view;
   ColumnView m_ordinate;
   QString m_note;
   bool m_faulty = false;
-  std::unique_ptr<DerivedSeries> m_derived, m_comparedDerived;
+  std::unique_ptr<DerivedSeries> m_derived;
+  std::vector<Compared> m_compared;
 };
+
+/// The value of a column at this time, or its newest one; nothing where it has a gap.
+std::optional<double> valueIn(const ColumnView& view, std::optional<double> time);
+/// "walk forward, slow" for a code of this column; its number if it has no label.
+QString codeTextIn(const ColumnView& view, double value);
+/// The value of a column as text, codes as their labels.
+QString valueTextIn(const ColumnView& view, std::optional<double> time);
 
 /// Curves of the mock, then four more; each has a shade for either theme.
 QColor curveColor(int number);
@@ -77,8 +93,19 @@ inline constexpr int futureDash = 4;
 /// They depend on x only, counted from `origin`: a curve that scrolls takes its dashes along.
 /// `pixel`: of the mock.
 QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, double origin);
-/// A curve of the compared session beside its own: so much paler and so thin.
+/// Curves of compared sessions have the session's colour and are so thin; those of an abandoned
+/// future have the curve's own colour, so much paler.
 inline constexpr double comparedPaleness = 0.5, comparedWidth = 0.66;
+struct ComparedLook {
+  QColor color;
+  double width = 1.0;  ///< times that of the curve
+  int dash = 0;        ///< of curveDash(); tells the curves of a plot apart
+};
+/// `curve`: its position in the plot. `base`: the ground of the plot.
+ComparedLook comparedLook(const ComparedRows& session, std::size_t curve, const QColor& own,
+                          const QColor& base);
+/// A curve that stands out for a moment is so many times as wide.
+inline constexpr double pointedOutWidth = 2.5;
 QColor mixedColor(const QColor& a, const QColor& b, double share);
 /// Ground of a stretch of a lane: walking, turning, stopping, kicking and gait have theirs.
 QColor laneColor(const QString& word, int code);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 
 #include "curve.h"
@@ -55,6 +56,13 @@ static_assert(dashes.size() == futureDash + 1);
 
 int curveDash(int number) {
   return number / curveColors % futureDash;
+}
+
+ComparedLook comparedLook(const ComparedRows& session, std::size_t curve, const QColor& own,
+                          const QColor& base) {
+  // Never taken for the present, where they lie close together.
+  if (session.isFuture()) return {mixedColor(own, base, comparedPaleness), 1.0, futureDash};
+  return {sessionColor(session.number), comparedWidth, static_cast<int>(curve % futureDash)};
 }
 
 QList<QLineF> dashedLine(std::span<const QPointF> line, int dash, double pixel, double origin) {

@@ -2,12 +2,15 @@
 #include "lane_pane.h"
 
 #include <QContextMenuEvent>
+#include <QHelpEvent>
 #include <QPainter>
+#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <ui/base/quick_painting.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
 
@@ -19,7 +22,7 @@ namespace {
 constexpr int nameHeight = 14;  // px of the mock
 constexpr int laneHeight = 18;
 constexpr int gap = 4;
-constexpr int comparedHeight = 5;  // at the foot of its lane
+constexpr int bareHeight = 13;  // of a lane without the bands of compared sessions
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 bool same(double a, double b) {
@@ -99,6 +102,16 @@ class LanePane::Lanes : public QWidget {
     m_pane->paintLanes(painter);
   }
   void resizeEvent(QResizeEvent*) override { m_pane->draw(); }
+  bool event(QEvent* event) override {
+    if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+    const auto* help = static_cast<QHelpEvent*>(event);
+    const QString tip = m_pane->tipAt(help->pos());
+    if (tip.isEmpty())
+      QToolTip::hideText();
+    else
+      QToolTip::showText(help->globalPos(), tip, this);
+    return true;
+  }
   void contextMenuEvent(QContextMenuEvent* event) override {
     emit m_pane->menuRequested(m_pane->laneAt(event->pos().y()), event->globalPos());
   }
@@ -123,14 +136,28 @@ void LanePane::setBoxTool(bool on) {
   m_gestures->setBoxTool(on);
 }
 
+int LanePane::bandHigh() const {
+  const std::size_t sessions = m_feed->compared().size();
+  constexpr std::size_t few = 3, some = 8;
+  return scaled(this, sessions <= few ? 5 : sessions <= some ? 4 : 3);
+}
+
+int LanePane::laneHigh() const {
+  const int bands = static_cast<int>(m_feed->compared().size()) * bandHigh();
+  return std::max(scaled(this, laneHeight), scaled(this, bareHeight) + bands);
+}
+
+int LanePane::rowHigh() const {
+  return scaled(this, nameHeight) + laneHigh() + scaled(this, gap);
+}
+
 int LanePane::laneAt(double y) const {
-  const int lane = static_cast<int>(y) / scaled(this, nameHeight + laneHeight + gap);
+  const int lane = static_cast<int>(y) / rowHigh();
   return lane < static_cast<int>(m_curves.size()) ? lane : -1;
 }
 
 void LanePane::fitHeight() {
-  const int height =
-      scaled(this, nameHeight + laneHeight + gap) * std::max(1, static_cast<int>(m_curves.size()));
+  const int height = rowHigh() * std::max(1, static_cast<int>(m_curves.size()));
   if (height == minimumHeight() && height == maximumHeight()) return;
   setFixedHeight(height);
   emit leftChanged();
@@ -138,7 +165,7 @@ void LanePane::fitHeight() {
 
 QList<QRect> LanePane::lineAreas() const {
   QList<QRect> all;
-  const int name = scaled(this, nameHeight), height = scaled(this, laneHeight + gap);
+  const int name = scaled(this, nameHeight), height = laneHigh() + scaled(this, gap);
   for (int top = 0; top + name < surface()->height(); top += name + height) {
     all << QRect(0, top + name, surface()->width(), height);
   }
@@ -150,18 +177,53 @@ void LanePane::draw() {
   const TimeAxis axis = timeAxis();
   const int columns = std::max(1, static_cast<int>(axis.width * devicePixelRatioF()));
   m_stretches.clear();
-  m_comparedStretches.clear();
-  const double offset = m_feed->comparedOffset();
-  for (Curve& curve : m_curves) {
+  for (const Curve& curve : m_curves) {
     m_stretches.push_back(laneStretches(curve.view(), axis.shown, columns));
-    m_comparedStretches.push_back(laneStretches(
-        curve.compared(*m_feed), {axis.shown.begin - offset, axis.shown.end - offset}, columns));
-    for (LaneStretch& stretch : m_comparedStretches.back()) {
-      stretch.begin = std::max(stretch.begin + offset, m_feed->comparedFrom());
-      stretch.end += offset;
+  }
+  m_comparedStretches.clear();
+  for (const ComparedRows& session : m_feed->compared()) {
+    for (const Curve& curve : m_curves) {
+      std::vector<LaneStretch>& stretches = m_comparedStretches.emplace_back();
+      const Curve::Compared* other = curve.compared(session);
+      if (other == nullptr) continue;
+      stretches = laneStretches(other->view, session.ownTime(axis.shown), columns);
+      for (LaneStretch& stretch : stretches) {
+        stretch.begin = std::max(stretch.begin + session.offset, session.from);
+        stretch.end += session.offset;
+      }
     }
   }
   m_lanes->update();
+}
+
+const std::vector<LaneStretch>& LanePane::comparedStretches(std::size_t lane,
+                                                            std::size_t session) const {
+  static const std::vector<LaneStretch> none;
+  const std::size_t i = session * m_curves.size() + lane;
+  return i < m_comparedStretches.size() ? m_comparedStretches[i] : none;
+}
+
+QString LanePane::tipAt(QPointF at) const {
+  const int lane = laneAt(at.y());
+  const auto& sessions = m_feed->compared();
+  if (lane < 0 || sessions.empty()) return {};
+  const double foot = (lane + 1) * rowHigh() - scaled(this, gap);
+  const double above = foot - static_cast<double>(sessions.size()) * bandHigh();
+  const double place = std::floor((at.y() - above) / bandHigh());
+  if (place < 0.0 || place >= static_cast<double>(sessions.size())) return {};
+  const auto index = static_cast<std::size_t>(place);
+  QString tip = sessions[index].caption;
+  if (!sessions[index].isFuture())
+    tip.prepend(sessionMark(sessions[index].number) + QLatin1Char(' '));
+  const double time = timeAxis().time(at.x());
+  const Curve::Compared* curve = m_curves[static_cast<std::size_t>(lane)].compared(sessions[index]);
+  const ColumnView view = curve != nullptr ? curve->view : ColumnView{};
+  for (const LaneStretch& one : comparedStretches(static_cast<std::size_t>(lane), index)) {
+    if (time < one.begin || time > one.end) continue;
+    tip += QStringLiteral(": ") + (one.mixed ? QStringLiteral("changes often; zoom in to see it")
+                                             : codeTextIn(view, one.value));
+  }
+  return tip;
 }
 
 void LanePane::paintLanes(QPainter& painter) const {
@@ -173,6 +235,7 @@ void LanePane::paintLanes(QPainter& painter) const {
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const Curve& curve = m_curves[i];
     const QRectF name(axis.left, y, axis.width, scaled(this, nameHeight));
+    if (isPointedOut(i)) painter.fillRect(name, colors.selectedRow);
     painter.setPen(curve.isFaulty()    ? colors.errorText
                    : curve.isWaiting() ? colors.disabledText
                                        : colors.text);
@@ -190,14 +253,16 @@ void LanePane::paintLanes(QPainter& painter) const {
       }
     }
     y += scaled(this, nameHeight);
-    const double height = scaled(this, laneHeight);
+    const double height = laneHigh();
+    const auto sessions = static_cast<int>(m_feed->compared().size());
+    const double own = sessions > 1 ? height - sessions * bandHigh() : height;
     painter.fillRect(QRectF(axis.left, y, axis.width, height), colors.alternateRow);
     if (i < m_stretches.size()) {
       for (const LaneStretch& stretch : m_stretches[i]) {
         const double from = std::max(axis.pixel(stretch.begin), axis.left);
         const double to = std::min(axis.pixel(stretch.end), axis.right());
         if (to <= from) continue;
-        const QRectF box(from, y, to - from, height);
+        const QRectF box(from, y, to - from, own);
         const QString word = curve.codeText(stretch.value);
         painter.fillRect(box, laneColor(word, static_cast<int>(stretch.value)));
         if (stretch.mixed) {
@@ -205,7 +270,7 @@ void LanePane::paintLanes(QPainter& painter) const {
           continue;
         }
         // The line between neighbours: colours alone must not tell stretches apart.
-        painter.fillRect(QRectF(from, y, 1.0, height), colors.view);
+        painter.fillRect(QRectF(from, y, 1.0, own), colors.view);
         const double room = box.width() - 2 * padding;
         // Dots alone say nothing.
         const QFontMetrics metrics = painter.fontMetrics();
@@ -217,19 +282,34 @@ void LanePane::paintLanes(QPainter& painter) const {
                      Qt::AlignLeft | Qt::AlignVCenter, word, Qt::ElideRight);
       }
     }
-    if (i < m_comparedStretches.size()) {
-      const double band = scaled(this, comparedHeight);
-      for (const LaneStretch& stretch : m_comparedStretches[i]) {
-        const double from = std::max(axis.pixel(stretch.begin), axis.left);
-        const double to = std::min(axis.pixel(stretch.end), axis.right());
-        if (to <= from) continue;
-        const QRectF box(from, y + height - band, to - from, band);
-        painter.fillRect(box, colors.view);
-        painter.fillRect(box.adjusted(1, 1, 0, 0),
-                         laneColor(curve.codeText(stretch.value), static_cast<int>(stretch.value)));
-      }
-    }
+    paintCompared(painter, i, QRectF(axis.left, y, axis.width, height));
     y += static_cast<int>(height) + scaled(this, gap);
+  }
+}
+
+// One band below the other at the foot of the lane, in the order of the sessions.
+void LanePane::paintCompared(QPainter& painter, std::size_t lane, const QRectF& place) const {
+  const ThemeColors& colors = theme();
+  const TimeAxis axis = timeAxis();
+  const auto& sessions = m_feed->compared();
+  const double band = bandHigh(), chip = scaled(this, 4);
+  double y = place.bottom() - static_cast<double>(sessions.size()) * band;
+  for (std::size_t k = 0; k < sessions.size(); ++k, y += band) {
+    if (!sessions[k].isFuture() && !sessions[k].isHidden) {
+      painter.fillRect(QRectF(place.left() - chip - 2, y + 1, chip, band - 1),
+                       sessionColor(sessions[k].number));
+    }
+    const Curve::Compared* curve = m_curves[lane].compared(sessions[k]);
+    if (curve == nullptr || !curve->view) continue;
+    for (const LaneStretch& stretch : comparedStretches(lane, k)) {
+      const double from = std::max(axis.pixel(stretch.begin), axis.left);
+      const double to = std::min(axis.pixel(stretch.end), axis.right());
+      if (to <= from) continue;
+      const QRectF box(from, y, to - from, band);
+      painter.fillRect(box, colors.view);
+      painter.fillRect(box.adjusted(1, 1, 0, 0), laneColor(codeTextIn(curve->view, stretch.value),
+                                                           static_cast<int>(stretch.value)));
+    }
   }
 }
 

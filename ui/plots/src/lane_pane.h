@@ -32,10 +32,13 @@ class LanePane : public PlotPane {
   void setBoxTool(bool on) override;
   /// Of the lane at this place, in the order of curves().
   const std::vector<LaneStretch>& stretches(std::size_t lane) const { return m_stretches[lane]; }
-  /// The same of the compared session, at the times of what is shown: a band at the lane's foot.
-  const std::vector<LaneStretch>& comparedStretches(std::size_t lane) const {
-    return m_comparedStretches[lane];
-  }
+  /// The same of a compared session, at the times of what is shown: a band at the lane's foot.
+  /// `session`: as in PlotFeed::compared().
+  const std::vector<LaneStretch>& comparedStretches(std::size_t lane,
+                                                    std::size_t session = 0) const;
+  /// Returns the session and the state at this place of the surface as a sentence; empty if it is
+  /// on no band of a compared session.
+  QString tipAt(QPointF at) const;
 
  protected:
   void draw() override;
@@ -44,12 +47,18 @@ class LanePane : public PlotPane {
  private:
   class Lanes;
   void paintLanes(QPainter& painter) const;
+  void paintCompared(QPainter& painter, std::size_t lane, const QRectF& place) const;
   void fitHeight();
   int laneAt(double y) const;
+  /// px; of a lane with its bands, of it with its name and gap, and of a band.
+  int laneHigh() const;
+  int rowHigh() const;
+  int bandHigh() const;
 
   Lanes* m_lanes;
   TimeGestures* m_gestures;
-  std::vector<std::vector<LaneStretch>> m_stretches, m_comparedStretches;
+  std::vector<std::vector<LaneStretch>> m_stretches;
+  std::vector<std::vector<LaneStretch>> m_comparedStretches;  // all lanes of the first session, …
 };
 
 }  // namespace pitchboard::ui

@@ -66,6 +66,10 @@ void LegendBar::setFirst(int index) {
   arrange();
 }
 
+void LegendBar::reveal(int index) {
+  if (index >= 0 && index < m_entries.size() && m_rects.value(index).isEmpty()) setFirst(index);
+}
+
 int LegendBar::widthOf(const LegendEntry& entry) const {
   const QFont font = themeFont(TypeRole::Small);
   // Room for a long number, so that entries do not move while values run.
@@ -157,6 +161,10 @@ void LegendBar::paintEvent(QPaintEvent*) {
     const LegendEntry& entry = m_entries[i];
     QRect rect = m_rects.value(i);
     if (rect.isEmpty()) continue;
+    if (entry.pointedOut) {
+      const int edge = scaled(this, 3);
+      painter.fillRect(rect.adjusted(-edge, 0, edge, 0), colors.selectedRow);
+    }
     const bool quiet = entry.muted || entry.hidden;
     QPen stroke(quiet ? colors.disabledText : entry.color, scaled(this, 2), Qt::SolidLine,
                 Qt::FlatCap);

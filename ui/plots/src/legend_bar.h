@@ -23,8 +23,10 @@ struct LegendEntry {
   QString side;      ///< behind the name, in a quieter colour: "[cm]", "right"
   bool odd = false;  ///< its unit is not that of the axis
   bool hidden = false;
-  bool muted = false;   ///< no data yet
-  bool faulty = false;  ///< never will be
+  bool pointedOut = false;  ///< stands out for a moment
+  bool muted = false;       ///< no data yet
+  bool faulty = false;      ///< never will be
+  quint64 session = 0;      ///< id of the compared session that it is of; 0: of none
   bool operator==(const LegendEntry&) const = default;
 };
 
@@ -43,6 +45,8 @@ class LegendBar : public QWidget {
   /// The entry that stands first. Others before it are scrolled out of sight.
   int first() const { return m_first; }
   void setFirst(int index);
+  /// Scrolls until this entry is in sight.
+  void reveal(int index);
   /// Empty while it is scrolled out of sight.
   QRect rectOf(int index) const { return m_rects.value(index); }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/plots/axis_ticks.h>
 
@@ -21,13 +22,30 @@ bool sameNumber(std::optional<double> a, std::optional<double> b) {
 }  // namespace
 
 bool MarksRow::operator==(const MarksRow& o) const {
-  return name == o.name && unit == o.unit && color == o.color && sameNumber(a, o.a) &&
-         sameNumber(b, o.b) && between.samples == o.between.samples &&
+  return name == o.name && session == o.session && unit == o.unit && color == o.color &&
+         sameNumber(a, o.a) && sameNumber(b, o.b) && between.samples == o.between.samples &&
          between.mean == o.between.mean && between.min == o.between.min &&
          between.max == o.between.max && between.sigma == o.between.sigma &&
          between.rms == o.between.rms && between.reading == o.between.reading && aText == o.aText &&
          bText == o.bText;
 }
+
+namespace {
+
+/// Values at both marks and between them; `measured`: over that instead.
+void measure(MarksRow& row, const ColumnView& view, double a, double b,
+             std::optional<telemetry::TimeRange> measured) {
+  row.a = valueIn(view, a);
+  row.b = valueIn(view, b);
+  row.between = view.group->statistics(
+      view.column, measured.value_or(telemetry::TimeRange{std::min(a, b), std::max(a, b)}));
+  if (view.isCoded()) {
+    if (row.a) row.aText = codeTextIn(view, *row.a);
+    if (row.b) row.bText = codeTextIn(view, *row.b);
+  }
+}
+
+}  // namespace
 
 MarksRow marksRow(const Curve& curve, double a, double b,
                   std::optional<telemetry::TimeRange> measured) {
@@ -35,16 +53,21 @@ MarksRow marksRow(const Curve& curve, double a, double b,
   row.name = curve.name();
   row.unit = curve.unit();
   row.color = curve.color();
-  if (curve.isWaiting()) return row;
-  row.a = curve.valueAt(a);
-  row.b = curve.valueAt(b);
-  const ColumnView& view = curve.view();
-  row.between = view.group->statistics(
-      view.column, measured.value_or(telemetry::TimeRange{std::min(a, b), std::max(a, b)}));
-  if (view.isCoded()) {
-    if (row.a) row.aText = curve.codeText(*row.a);
-    if (row.b) row.bText = curve.codeText(*row.b);
-  }
+  if (!curve.isWaiting()) measure(row, curve.view(), a, b, measured);
+  return row;
+}
+
+std::optional<MarksRow> marksRow(const Curve& curve, const ComparedRows& session, double a,
+                                 double b, bool isWhole) {
+  const Curve::Compared* other = curve.compared(session);
+  if (session.isFuture() || other == nullptr || !other->view) return {};
+  MarksRow row;
+  row.name = curve.name() + sessionMark(session.number);
+  row.unit = curve.unit();
+  row.color = sessionColor(session.number);
+  row.session = session.caption;
+  measure(row, other->view, a - session.offset, b - session.offset,
+          isWhole ? other->view.group->range() : std::nullopt);
   return row;
 }
 
@@ -115,10 +138,11 @@ QVariant MarksModel::data(const QModelIndex& index, int role) const {
       return cell(row, index.column());
     case Qt::ToolTipRole:
       if (index.column() == AtA || index.column() == AtB) return cell(row, index.column());
-      return index.column() == Name ? QStringLiteral("%1: %2 samples between A and B")
-                                          .arg(row.name)
-                                          .arg(row.between.samples)
-                                    : QVariant();
+      if (index.column() != Name) return {};
+      return QStringLiteral("%1: %2 samples between A and B%3")
+          .arg(row.name)
+          .arg(row.between.samples)
+          .arg(row.session.isEmpty() ? QString() : QStringLiteral("\nSession: ") + row.session);
     case Qt::DecorationRole:
       return index.column() == Name ? QVariant(row.color) : QVariant();
     case Qt::TextAlignmentRole:

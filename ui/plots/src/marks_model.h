@@ -19,6 +19,7 @@ struct MarksRow {
   std::optional<double> a, b;           ///< the last sample at or before the mark
   telemetry::SeriesStatistics between;  ///< no samples: nothing lies between
   QString aText, bText;                 ///< labels of codes; empty for numbers
+  QString session = {};                 ///< caption of the compared session; empty: of none
   bool operator==(const MarksRow&) const;
 };
 
@@ -46,5 +47,9 @@ class MarksModel : public QAbstractTableModel {
 /// Of a curve, between the earlier and the later mark, or over `measured` instead.
 MarksRow marksRow(const Curve& curve, double a, double b,
                   std::optional<telemetry::TimeRange> measured = {});
+/// The same of a curve in a compared session, or over all of that session; nothing where it has
+/// none, or is hidden.
+std::optional<MarksRow> marksRow(const Curve& curve, const ComparedRows& session, double a,
+                                 double b, bool isWhole);
 
 }  // namespace pitchboard::ui

@@ -222,7 +222,11 @@ void MarksPanel::refresh(const QList<PlotPane*>& panes) {
   for (const PlotPane* pane : panes) {
     if (!pane->isOverTime()) continue;
     for (const Curve& curve : pane->curves()) {
-      if (!curve.isHidden()) rows << marksRow(curve, a, b, m_whole ? time->data() : std::nullopt);
+      if (curve.isHidden()) continue;
+      rows << marksRow(curve, a, b, m_whole ? time->data() : std::nullopt);
+      for (const ComparedRows& session : m_feed->compared()) {
+        if (auto row = marksRow(curve, session, a, b, m_whole)) rows << *row;
+      }
     }
   }
   m_model->setRows(std::move(rows));

@@ -14,9 +14,12 @@
 #include <base/file_target.h>
 #include <ui/base/picture_bytes.h>
 #include <ui/base/save_file.h>
+#include <ui/base/session_mark.h>
 #include <ui/plots/axis_ticks.h>
 #include <ui/plots/film_curves.h>
 #include <ui/plots/plots_dock.h>
+#include <ui/sources/linked_time.h>
+#include <ui/sources/shown_moment.h>
 
 #include "plot_feed.h"
 #include "plot_page.h"
@@ -50,11 +53,13 @@ QByteArray withKnownFonts(const QByteArray& svg) {
 /// Samples of one column, read piece by piece: a file may be larger than memory.
 class SampleReader {
  public:
-  SampleReader(const ColumnView& view, telemetry::TimeRange range) : m_view(view), m_rest(range) {
+  /// `offset`: s, where second 0 of the column stands on the axis of `range`.
+  SampleReader(const ColumnView& view, telemetry::TimeRange range, double offset = 0.0)
+      : m_view(view), m_rest{range.begin - offset, range.end - offset}, m_offset(offset) {
     fill();
   }
   double time() const {
-    return m_next < m_samples.size() ? m_samples[m_next].time
+    return m_next < m_samples.size() ? m_samples[m_next].time + m_offset
                                      : std::numeric_limits<double>::infinity();
   }
   double take() {
@@ -81,6 +86,7 @@ class SampleReader {
 
   ColumnView m_view;
   telemetry::TimeRange m_rest;
+  double m_offset;
   std::vector<telemetry::Sample> m_samples;
   std::size_t m_next = 0;
   bool m_done = false;
@@ -145,19 +151,44 @@ QByteArray plotSvg(PlotPage& page) {
   return withKnownFonts(bytes);
 }
 
+namespace {
+
+/// A curve as it is exported: the source's, or that of a compared session.
+struct ExportedCurve {
+  QString name;
+  ColumnView view, ordinate;
+  double offset = 0.0;  // s
+};
+
+std::vector<ExportedCurve> exportedCurves(const PlotPane& pane, const Curve& curve) {
+  std::vector<ExportedCurve> all{{curve.name(), curve.view(), curve.ordinate()}};
+  for (const ComparedRows& session : pane.feed().compared()) {
+    const Curve::Compared* other = curve.compared(session);
+    if (session.isFuture() || other == nullptr || !other->view) continue;
+    all.push_back(
+        {QStringLiteral("%1%2 %3").arg(curve.name(), sessionMark(session.number), session.caption),
+         other->view, other->ordinate, session.offset});
+  }
+  std::erase_if(all, [](const ExportedCurve& one) { return !one.view; });
+  return all;
+}
+
+}  // namespace
+
 void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeRange range) {
   QStringList names{QStringLiteral("time [s]")};
   std::vector<SampleReader> readers;
   for (const PlotPane* pane : panes) {
     for (const Curve& curve : pane->curves()) {
-      if (curve.isWaiting()) continue;
-      names << csv(curve.unit().isEmpty()
-                       ? curve.name()
-                       : QStringLiteral("%1 [%2]").arg(curve.name(), curve.unit()));
-      readers.emplace_back(curve.view(), range);
-      if (!curve.ordinate()) continue;
-      names << csv(curveName(variableCurve(curve.spec().inputs.value(1))));
-      readers.emplace_back(curve.ordinate(), range);
+      for (const ExportedCurve& one : exportedCurves(*pane, curve)) {
+        names << csv(curve.unit().isEmpty()
+                         ? one.name
+                         : QStringLiteral("%1 [%2]").arg(one.name, curve.unit()));
+        readers.emplace_back(one.view, range, one.offset);
+        if (!one.ordinate) continue;
+        names << csv(curveName(variableCurve(curve.spec().inputs.value(1))));
+        readers.emplace_back(one.ordinate, range, one.offset);
+      }
     }
   }
   device.write(names.join(QLatin1Char(',')).toUtf8() + "\r\n");
@@ -184,10 +215,13 @@ Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange ran
                          const QString& path) {
   for (const PlotPane* pane : panes) {
     for (const Curve& curve : pane->curves()) {
-      if (curve.isWaiting() || curve.view().group->hasEveryRow(range)) continue;
-      return failure(
-          ErrorCode::Unsupported,
-          "This range is not in memory. Zoom in and try again, or use Timeline > Export….");
+      for (const ExportedCurve& one : exportedCurves(*pane, curve)) {
+        if (one.view.group->hasEveryRow({range.begin - one.offset, range.end - one.offset}))
+          continue;
+        return failure(
+            ErrorCode::Unsupported,
+            "This range is not in memory. Zoom in and try again, or use Timeline > Export….");
+      }
     }
   }
   QSaveFile file(path);
@@ -201,10 +235,15 @@ QString valuesText(const QList<PlotPane*>& panes, std::optional<double> time) {
   QString text;
   for (const PlotPane* pane : panes) {
     for (const Curve& curve : pane->curves()) {
-      const auto value = curve.valueAt(time);
-      text += curve.name() + QLatin1Char('\t') +
-              (value ? QString::number(*value, 'g', 15) : QString()) + QLatin1Char('\t') +
-              curve.unit() + QLatin1Char('\n');
+      const auto add = [&](const QString& name, std::optional<double> value) {
+        text += name + QLatin1Char('\t') + (value ? QString::number(*value, 'g', 15) : QString()) +
+                QLatin1Char('\t') + curve.unit() + QLatin1Char('\n');
+      };
+      add(curve.name(), curve.valueAt(time));
+      const double shown = time.value_or(pane->feed().time()->shown()->time());
+      for (const ExportedCurve& one : exportedCurves(*pane, curve)) {
+        if (one.name != curve.name()) add(one.name, valueIn(one.view, shown - one.offset));
+      }
     }
   }
   return text;

@@ -24,8 +24,9 @@ QByteArray plotPng(PlotPage& page);
 QByteArray plotSvg(PlotPage& page);
 /// Fails where there are no bytes, too.
 Result<void> savePlotPicture(const QByteArray& bytes, const QString& path);
-/// Every sample in the range: a first line of names, then time in s and one column for each curve;
-/// a cell is empty where a curve has no sample at that time. RFC 4180, decimal point.
+/// Every sample in the range: a first line of names, then time in s and one column for each curve,
+/// those of compared sessions behind it, at the times at which they are drawn; a cell is empty
+/// where a curve has no sample at that time. RFC 4180, decimal point.
 Result<void> savePlotCsv(const QList<PlotPane*>& panes, telemetry::TimeRange range,
                          const QString& path);
 void writeCsv(QIODevice& device, const QList<PlotPane*>& panes, telemetry::TimeRange range);

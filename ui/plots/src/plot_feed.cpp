@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/meanings.h>
+#include <telemetry/formats/meanings.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/time_axis.h>
 #include <ui/sources/linked_time.h>
@@ -94,8 +94,8 @@ void PlotFeed::refresh() {
   }
   orderRobots();
   findFirst();
-  m_rowsRead =
-      (m_store ? m_store->pagesRevision() : 0) + (m_compared ? m_compared->pagesRevision() : 0);
+  m_rowsRead = m_store ? m_store->pagesRevision() : 0;
+  for (const ComparedRows& session : m_compared) m_rowsRead += session.rows->pagesRevision();
   m_views.clear();
   m_namedWorking = false;
   for (auto& [name, curve] : m_named) {
@@ -319,19 +319,20 @@ ColumnView PlotFeed::find(const QString& name) {
   return {view, known->second.column};
 }
 
-void PlotFeed::setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
-                           const QString& caption, double from) {
-  if (rows != m_compared) ++m_comparedGeneration;
-  m_comparedFrom = from;
-  m_compared = std::move(rows);
-  m_comparedOffset = offset;
-  m_comparedCaption = caption;
+void PlotFeed::setCompared(std::vector<ComparedRows> sessions) {
+  std::erase_if(sessions, [](const ComparedRows& session) { return session.rows == nullptr; });
+  for (ComparedRows& session : sessions) {
+    const auto known = std::ranges::find(m_compared, session.id, &ComparedRows::id);
+    const bool isSame = known != m_compared.end() && known->rows == session.rows;
+    session.generation = isSame ? known->generation : ++m_comparedGeneration;
+  }
+  m_compared = std::move(sessions);
 }
 
-ColumnView PlotFeed::compared(const QString& name) const {
-  const auto id = m_compared ? findVariable(*m_compared, name) : std::nullopt;
+ColumnView PlotFeed::find(const ComparedRows& session, const QString& name) const {
+  const auto id = session.isHidden ? std::nullopt : findVariable(*session.rows, name);
   if (!id) return {};
-  return {m_compared->view(id->group), id->column};
+  return {session.rows->view(id->group), id->column};
 }
 
 QString PlotFeed::timeText(double time, int decimals) const {

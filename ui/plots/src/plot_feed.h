@@ -20,6 +20,7 @@ namespace pitchboard::ui {
 
 class DerivedSeries;
 class LinkedTime;
+class NoteBoard;
 
 /// A column as of the last refresh. Cheap to copy; any thread may read it.
 struct ColumnView {
@@ -29,6 +30,25 @@ struct ColumnView {
   explicit operator bool() const { return group != nullptr; }
   const telemetry::ColumnInfo& info() const { return group->info().columns[column]; }
   bool isCoded() const { return info().kind != telemetry::ColumnKind::Number; }
+};
+
+/// A session whose curves are drawn beside those of the source.
+struct ComparedRows {
+  quint64 id = 0;  ///< of the session; 0: an abandoned future of the same match
+  int number = 0;  ///< of its colour and mark (session_mark.h)
+  std::shared_ptr<const telemetry::SeriesStore> rows = nullptr;
+  double offset = 0.0;  ///< s, time of its second 0 on the axis
+  /// s on the axis; until then an abandoned future has the rows of the source.
+  double from = -std::numeric_limits<double>::infinity();
+  QString caption = {};
+  bool isHidden = false;
+  quint64 generation = 0;  ///< increases with other rows; the feed's
+
+  bool isFuture() const { return id == 0; }
+  /// A range of the axis in its own time.
+  telemetry::TimeRange ownTime(telemetry::TimeRange range) const {
+    return {range.begin - offset, range.end - offset};
+  }
 };
 
 /// Old and new names of groups that were renamed at the same time.
@@ -42,6 +62,9 @@ class PlotFeed : public QObject {
   ~PlotFeed() override;
 
   FrameSource* source() const { return m_source; }
+  /// The notes that are drawn on plots; null: none.
+  NoteBoard* notes() const { return m_notes; }
+  void setNotes(NoteBoard* notes) { m_notes = notes; }
   LinkedTime* time() const { return m_time; }
   /// Finds `GROUP/COLUMN` or `curve/NAME`; empty if there is no such variable at the moment.
   ColumnView find(const QString& name);
@@ -73,27 +96,17 @@ class PlotFeed : public QObject {
   /// groupsWith() are then out of date.
   quint64 looks() const { return m_looks; }
 
-  /// Sets the rows of a second session, whose second 0 is at `offset` (s); null for none. Until
-  /// `from` (s) both sessions have the same rows.
-  void setCompared(std::shared_ptr<const telemetry::SeriesStore> rows, double offset,
-                   const QString& caption, double from = -std::numeric_limits<double>::infinity());
-  /// Returns the same variable in the second session, at that session's times; empty if it has
-  /// none.
-  ColumnView compared(const QString& name) const;
-  bool hasCompared() const { return m_compared != nullptr; }
+  /// Sets the sessions whose curves are drawn beside those of the source.
+  void setCompared(std::vector<ComparedRows> sessions);
+  const std::vector<ComparedRows>& compared() const { return m_compared; }
+  /// Returns the same variable in a compared session, at that session's times; empty if it has
+  /// none, or is hidden.
+  ColumnView find(const ComparedRows& session, const QString& name) const;
   /// Increases when rows of a session that does not fit into memory have been read, so that the
   /// same range has to be drawn again.
   quint64 rowsRead() const { return m_rowsRead; }
   /// Returns whether input curves were still being computed at the last refresh.
   bool isWorking() const { return m_namedWorking; }
-  /// Increases when another session is compared; 0 if none ever was.
-  quint64 comparedGeneration() const { return m_comparedGeneration; }
-  double comparedOffset() const { return m_comparedOffset; }
-  double comparedFrom() const { return m_comparedFrom; }
-  const QString& comparedCaption() const { return m_comparedCaption; }
-  /// Returns whether the second session is an abandoned future of the same match.
-  bool comparesFuture() const { return m_comparedFrom > -std::numeric_limits<double>::infinity(); }
-
   /// Switches automatic refreshing on or off; hidden plots cost nothing.
   void setRunning(bool on);
   /// Refreshes now.
@@ -122,6 +135,7 @@ class PlotFeed : public QObject {
   std::optional<bool> isMoving(const QString& group, const QStringList& columns) const;
 
   FrameSource* m_source;
+  NoteBoard* m_notes = nullptr;
   LinkedTime* m_time;
   bool m_running = false;
   std::unique_ptr<Beat::Part> m_refresh;
@@ -138,10 +152,8 @@ class PlotFeed : public QObject {
   bool m_missed = false;                  // a curve waits for a missing variable
   std::optional<QDateTime> m_clock;
   bool m_showsValues = true;
-  std::shared_ptr<const telemetry::SeriesStore> m_compared;
+  std::vector<ComparedRows> m_compared;
   quint64 m_comparedGeneration = 0;
-  double m_comparedOffset = 0.0, m_comparedFrom = 0.0;
-  QString m_comparedCaption;
   std::map<telemetry::GroupId, std::shared_ptr<const telemetry::GroupView>> m_views;
   std::map<QString, telemetry::SeriesId> m_found;
   struct Named {

@@ -149,13 +149,15 @@ QList<PlotPane*> PlotPage::panes() const {
 }
 
 PlotPane* PlotPage::insertPane(int index, const PaneSpec& spec) {
-  PlotPane* pane = makePane(m_feed, spec, m_panes);
+  // A splitter lays a child out, and with it the others, before the child's constructor has ended.
+  PlotPane* pane = makePane(m_feed, spec, this);
   m_panes->insertWidget(index, pane);
   m_panes->setStretchFactor(index, spec.kind == PaneKind::Lane ? 0 : 1);
   pane->setBoxTool(m_boxTool);
   connect(pane, &PlotPane::leftChanged, this, &PlotPage::align);
   connect(pane, &PlotPane::changed, this, &PlotPage::notifyChanged);
   connect(pane, &PlotPane::changed, this, &PlotPage::showMarks);
+  connect(pane, &PlotPane::sessionToggled, this, &PlotPage::sessionToggled);
   connect(pane, &PlotPane::pointed, this, [this, pane](std::optional<QPointF> at) {
     m_pointedPane = pane;
     m_pointedAt = at;
@@ -256,15 +258,41 @@ void PlotPage::addVariables(const QStringList& names) {
   // The last one is where somebody worked last.
   QList<PlotPane*> takers = panes();
   std::reverse(takers.begin(), takers.end());
-  place(names, takers, m_panes->count());
+  place(pointOut(names, takers), takers, m_panes->count());
+}
+
+QStringList PlotPage::pointOut(const QStringList& names, const QList<PlotPane*>& in) {
+  QStringList others, found;
+  for (const QString& name : names) {
+    const CurveSpec curve = variableCurve(name);
+    const auto has =
+        std::ranges::find_if(in, [&curve](const PlotPane* pane) { return pane->hasCurve(curve); });
+    if (has == in.end()) {
+      others << name;
+      continue;
+    }
+    pointOut(*has, curve);
+    found << curveName(curve);
+  }
+  if (!found.isEmpty()) emit alreadyPlotted(found);
+  return others;
+}
+
+void PlotPage::pointOut(PlotPane* pane, const CurveSpec& curve) {
+  pane->pointOut(curve);
+  m_scroll->ensureWidgetVisible(pane, 0, 0);
 }
 
 void PlotPage::addCurve(const CurveSpec& curve) {
   for (PlotPane* pane : panes()) {
-    if (pane->kind() == PaneKind::Chart) {
+    if (pane->kind() != PaneKind::Chart) continue;
+    if (pane->hasCurve(curve)) {
+      pointOut(pane, curve);
+      emit alreadyPlotted({curveName(curve)});
+    } else {
       pane->addCurve(curve);
-      return;
     }
+    return;
   }
   insertPane(0, paneOf(PaneKind::Chart, curve));
 }
@@ -452,7 +480,7 @@ void PlotPage::drop(const QStringList& names, const QPoint& position) {
     return;
   }
   if (target.place == Place::OnPane)
-    place(names, {target.pane}, target.index + 1);
+    place(pointOut(names, {target.pane}), {target.pane}, target.index + 1);
   else
     place(names, {}, target.index);
 }
@@ -466,9 +494,14 @@ void PlotPage::dragMoveEvent(QDragMoveEvent* event) {
   if (names.isEmpty()) return;
   event->acceptProposedAction();
   const Target target = targetAt(event->position().toPoint(), names.size());
-  const QString label = target.place == Place::OnPane  ? QStringLiteral("add to this plot")
-                        : target.place == Place::NewXy ? QStringLiteral("XY plot")
-                                                       : QStringLiteral("new plot");
+  const bool isThere =
+      target.place == Place::OnPane && std::ranges::all_of(names, [&target](const QString& name) {
+        return target.pane->hasCurve(variableCurve(name));
+      });
+  const QString label = isThere                         ? QStringLiteral("already in this plot")
+                        : target.place == Place::OnPane ? QStringLiteral("add to this plot")
+                        : target.place == Place::NewXy  ? QStringLiteral("XY plot")
+                                                        : QStringLiteral("new plot");
   m_lines->setHint(DropHint{target.area, label});
 }
 

@@ -61,7 +61,10 @@ class PlotPage : public QWidget {
 
  signals:
   void changed();
+  /// Curves were to be added to plots that have them already; they stand out there now.
+  void alreadyPlotted(const QStringList& names);
   void menuRequested(pitchboard::ui::PlotPane* pane, int curve, const QPoint& globalPosition);
+  void sessionToggled(quint64 id);
 
  protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -86,6 +89,10 @@ class PlotPage : public QWidget {
   QString unitOf(const QString& name) const;
   /// Each to the first of these plots that can show it, else to a new one at `index`.
   void place(const QStringList& names, QList<PlotPane*> takers, int index);
+  /// Makes them stand out in the first of these plots that has each, and reports them. Returns the
+  /// others.
+  QStringList pointOut(const QStringList& names, const QList<PlotPane*>& in);
+  void pointOut(PlotPane* pane, const CurveSpec& curve);
   void align();
   void placeLines();
   void giveLanesTheirHeight();

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <utility>
 
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/shown_moment.h>
 
 #include "chart_pane.h"
 #include "curve_template.h"
@@ -16,6 +18,9 @@
 #include "xy_pane.h"
 
 namespace pitchboard::ui {
+namespace {
+constexpr int pointOutMilliseconds = 1500;
+}  // namespace
 
 PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
     : QWidget(parent),
@@ -31,9 +36,24 @@ PlotPane::PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent)
   m_column->setContentsMargins(0, 0, 0, 0);
   m_column->setSpacing(0);
   m_column->addWidget(m_legend);
-  connect(m_legend, &LegendBar::menuRequested, this, &PlotPane::menuRequested);
-  connect(m_legend, &LegendBar::toggled, this, &PlotPane::toggleCurve);
+  connect(m_legend, &LegendBar::menuRequested, this, [this](int index, const QPoint& at) {
+    const bool isOwn = index < static_cast<int>(m_curves.size());
+    emit menuRequested(isOwn ? index : -1, at);
+  });
+  connect(m_legend, &LegendBar::toggled, this, [this](int index) {
+    const LegendEntry entry = m_legend->entries().value(index);
+    if (entry.session > 0)
+      emit sessionToggled(entry.session);
+    else
+      toggleCurve(index);
+  });
   connect(m_legend, &LegendBar::isolated, this, &PlotPane::showOnly);
+  m_pointingOut.setSingleShot(true);
+  m_pointingOut.setInterval(pointOutMilliseconds);
+  connect(&m_pointingOut, &QTimer::timeout, this, [this] {
+    m_pointedOut.reset();
+    refresh();
+  });
 }
 
 PlotPane::~PlotPane() = default;
@@ -67,6 +87,23 @@ int PlotPane::freeColor() const {
 bool PlotPane::hasCurve(const CurveSpec& curve) const {
   return std::any_of(m_curves.begin(), m_curves.end(),
                      [&curve](const Curve& mine) { return sameData(mine.spec(), curve); });
+}
+
+void PlotPane::pointOut(const CurveSpec& curve) {
+  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+    if (!sameData(m_curves[i].spec(), curve)) continue;
+    const int index = static_cast<int>(i);
+    m_pointedOut = m_curves[i].spec();
+    m_pointingOut.start();
+    if (m_curves[i].isHidden()) toggleCurve(index);
+    refresh();
+    m_legend->reveal(index);
+    return;
+  }
+}
+
+bool PlotPane::isPointedOut(std::size_t curve) const {
+  return m_pointedOut && sameData(m_curves[curve].spec(), *m_pointedOut);
 }
 
 void PlotPane::addCurve(CurveSpec curve) {
@@ -195,6 +232,7 @@ LegendEntry PlotPane::legendEntry(std::size_t index) const {
   entry.color = curve.color();
   entry.dash = curveDash(curve.spec().colorNumber);
   entry.hidden = curve.isHidden();
+  entry.pointedOut = isPointedOut(index);
   entry.tip = curve.spec().expression.isEmpty() ? curve.spec().inputs.join(QStringLiteral(", "))
                                                 : curve.spec().expression;
   if (!curve.note().isEmpty()) {
@@ -221,11 +259,39 @@ LegendEntry PlotPane::legendEntry(std::size_t index) const {
   return entry;
 }
 
+QList<LegendEntry> PlotPane::comparedEntries() const {
+  QList<LegendEntry> entries;
+  const auto cursor = m_feed->time()->readAt();
+  for (const ComparedRows& session : m_feed->compared()) {
+    if (session.isFuture()) continue;
+    for (std::size_t i = 0; i < m_curves.size(); ++i) {
+      const Curve& curve = m_curves[i];
+      const Curve::Compared* other = curve.compared(session);
+      if (curve.isHidden() || other == nullptr || (!other->view && !session.isHidden)) continue;
+      const ComparedLook look = comparedLook(session, i, curve.color(), {});
+      LegendEntry entry;
+      entry.text = curve.name() + sessionMark(session.number);
+      entry.color = look.color;
+      entry.dash = look.dash;
+      entry.hidden = session.isHidden;
+      entry.session = session.id;
+      entry.tip = session.caption;
+      if (m_feed->showsValues() && other->view) {
+        const double time = cursor.value_or(m_feed->time()->shown()->time());
+        entry.value = valueTextIn(other->view, time - session.offset);
+      }
+      entries << entry;
+    }
+  }
+  return entries;
+}
+
 void PlotPane::showValues() {
   m_legend->setVisible(wantsLegend());
   if (!wantsLegend()) return;
   QList<LegendEntry> entries;
   for (std::size_t i = 0; i < m_curves.size(); ++i) entries << legendEntry(i);
+  entries << comparedEntries();
   const bool chart = kind() == PaneKind::Chart;
   m_legend->setTitle(m_spec.title);
   m_legend->setUnits(chart ? m_axes.left : QString(), chart ? m_axes.right : QString());

@@ -4,7 +4,9 @@
 // One plot on a page: curves, a legend, and something that draws them. What it draws with is the
 // subclass's: a chart over time, lanes of labels, one variable over another. UI thread only.
 
+#include <QTimer>
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 #include "axis_units.h"
@@ -44,6 +46,10 @@ class PlotPane : public QWidget {
   /// The same curves under other names; says nothing of it.
   void setDescriptions(const QList<CurveSpec>& curves);
   bool hasCurve(const CurveSpec& curve) const;
+  /// Shows a curve that is there already: no longer hidden, and for a moment it stands out.
+  void pointOut(const CurveSpec& curve);
+  /// The curve stands out now.
+  bool isPointedOut(std::size_t curve) const;
   /// A variable of this unit has a value axis here, or can have one.
   bool canTake(const QString& unit) const;
   /// Hides a curve, or shows it again.
@@ -54,6 +60,7 @@ class PlotPane : public QWidget {
   const AxisPlan& axes() const { return m_axes; }
 
   LegendBar* legend() const { return m_legend; }
+  const PlotFeed& feed() const { return *m_feed; }
   /// The part that curves are drawn in.
   virtual QWidget* surface() const = 0;
   /// Of the surface: where lines of moments go, which strike no name through.
@@ -85,7 +92,9 @@ class PlotPane : public QWidget {
   void changed();      ///< something that a preset holds
   void leftChanged();  ///< wantedLeft() or a fixed height did
   void menuRequested(int curve, const QPoint& globalPosition);  ///< curve: -1 for the plot
-  void pointed(std::optional<QPointF> at);                      ///< the pointer, in the surface
+  /// The entry of a compared session in the legend was clicked.
+  void sessionToggled(quint64 id);
+  void pointed(std::optional<QPointF> at);  ///< the pointer, in the surface
 
  protected:
   PlotPane(PlotFeed* feed, const PaneSpec& spec, QWidget* parent);
@@ -108,12 +117,16 @@ class PlotPane : public QWidget {
   void expand();
   std::vector<AxisRequest> unitsOfCurves() const;
   LegendEntry legendEntry(std::size_t index) const;
+  /// Of the curves of compared sessions, behind those of the source.
+  QList<LegendEntry> comparedEntries() const;
   /// Without drawing again.
   void setHidden(int index, bool on);
   int freeColor() const;
 
   LegendBar* m_legend;
   QVBoxLayout* m_column;
+  std::optional<CurveSpec> m_pointedOut;
+  QTimer m_pointingOut;  // until it no longer stands out
   QList<CurveSpec> m_descriptions;
   std::vector<qsizetype> m_describedBy;  // the description of each curve
   quint64 m_expandedFor = 0;             // the feed's looks()

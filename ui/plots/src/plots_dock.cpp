@@ -17,6 +17,7 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include <ui/base/notice_bar.h>
@@ -26,6 +27,7 @@
 #include <ui/plots/plot_menus.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/edit.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/shown_moment.h>
@@ -86,6 +88,7 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
       m_window(new QToolButton(this)),
       m_undo(new QUndoStack(this)) {
   setObjectName(QStringLiteral("plots"));
+  m_feed->setNotes(context.notes);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -134,8 +137,8 @@ PlotsDock::PlotsDock(const PlotsContext& context, QWidget* parent)
         [before](LinkedTime* time) { time->shown()->setMarks(before); });
   });
   if (context.compared != nullptr) {
-    connect(context.compared, &ComparedSession::changed, this, &PlotsDock::compare);
-    connect(context.compared, &ComparedSession::rowsCame, this, &PlotsDock::scheduleDraw);
+    connect(context.compared, &ComparedSessions::changed, this, &PlotsDock::compare);
+    connect(context.compared, &ComparedSessions::rowsCame, this, &PlotsDock::scheduleDraw);
     if (context.future != nullptr)
       connect(context.future, &AbandonedFuture::changed, this, &PlotsDock::compare);
     compare();
@@ -238,6 +241,15 @@ PlotPage* PlotsDock::addPage(const PageSpec& spec) {
     m_tabs->setTabText(int(pages().indexOf(page)), page->name());
     changed();
     scheduleDraw();
+  });
+  connect(page, &PlotPage::sessionToggled, this, [this](quint64 id) {
+    ComparedSession* session = m_context.compared ? m_context.compared->find(id) : nullptr;
+    if (session != nullptr) session->setInPlots(!session->isInPlots());
+  });
+  connect(page, &PlotPage::alreadyPlotted, this, [this](const QStringList& names) {
+    emit noted(names.size() == 1
+                   ? QStringLiteral("%1 is already plotted").arg(names.front())
+                   : QStringLiteral("%1 variables are already plotted").arg(names.size()));
   });
   connect(page, &PlotPage::menuRequested, this,
           [this, page](PlotPane* pane, int curve, const QPoint& at) {
@@ -423,14 +435,17 @@ void PlotsDock::takeRows() {
 }
 
 void PlotsDock::compare() {
-  const ComparedSession& other = *m_context.compared;
+  std::vector<ComparedRows> rows;
+  for (const ComparedSession* session : m_context.compared->all()) {
+    rows.push_back({session->id(), session->number(), session->series(), session->offset(),
+                    -std::numeric_limits<double>::infinity(), session->caption(),
+                    !session->isInPlots()});
+  }
   const AbandonedFuture* future = m_context.future;
-  if (other.isOn())
-    m_feed->setCompared(other.series(), other.offset(), other.caption());
-  else if (future != nullptr && future->isOn())
-    m_feed->setCompared(future->series(), 0.0, future->caption(), future->begin());
-  else
-    m_feed->setCompared(nullptr, 0.0, {});
+  if (rows.empty() && future != nullptr && future->isOn()) {
+    rows.push_back({0, 0, future->series(), 0.0, future->begin(), future->caption()});
+  }
+  m_feed->setCompared(std::move(rows));
   scheduleDraw();
 }
 

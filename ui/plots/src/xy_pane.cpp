@@ -10,6 +10,7 @@
 #include <QScatterSeries>
 #include <QWheelEvent>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <ui/base/theme.h>
@@ -144,32 +145,43 @@ void XyPane::draw() {
   ValueLimits x{INFINITY, -INFINITY}, y{INFINITY, -INFINITY};
   QString xTitle, yTitle;
   const telemetry::TimeRange range = m_feed->time()->range();
-  const double offset = m_feed->comparedOffset();
-  m_comparedPoints.clear();
-  for (Curve& curve : m_curves) {
-    if (curve.isHidden()) {
-      m_points.emplace_back();
-      m_comparedPoints.emplace_back();
-      continue;
+  const auto include = [&x, &y](const std::vector<QPointF>& points) {
+    for (const QPointF& point : points) {
+      if (!isFinite(point)) continue;
+      x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
+      y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
     }
-    m_points.push_back(xyPoints(curve.view(), curve.ordinate(), range, maxPoints));
-    m_comparedPoints.push_back(xyPoints(curve.compared(*m_feed), curve.comparedOrdinate(*m_feed),
-                                        {range.begin - offset, range.end - offset}, maxPoints));
-    for (const auto* points : {&m_points.back(), &m_comparedPoints.back()}) {
-      for (const QPointF& point : *points) {
-        if (!isFinite(point)) continue;
-        x = {std::min(x.low, point.x()), std::max(x.high, point.x())};
-        y = {std::min(y.low, point.y()), std::max(y.high, point.y())};
-      }
-    }
+  };
+  for (const Curve& curve : m_curves) {
+    m_points.emplace_back();
+    if (curve.isHidden()) continue;
+    m_points.back() = xyPoints(curve.view(), curve.ordinate(), range, maxPoints);
+    include(m_points.back());
     xTitle = commonTitle(xTitle, curve.spec().inputs.value(0));
     yTitle = commonTitle(yTitle, curve.spec().inputs.value(1));
+  }
+  m_comparedPoints.clear();
+  for (const ComparedRows& session : m_feed->compared()) {
+    for (const Curve& curve : m_curves) {
+      const Curve::Compared* other = curve.compared(session);
+      m_comparedPoints.emplace_back();
+      if (other == nullptr) continue;
+      m_comparedPoints.back() =
+          xyPoints(other->view, other->ordinate, session.ownTime(range), maxPoints);
+      include(m_comparedPoints.back());
+    }
   }
   m_titles = {xTitle, m_spec.valueTitle.isEmpty() ? yTitle : m_spec.valueTitle};
   m_chart->setTitles(m_titles.first, m_titles.second);
   if (!layOutAxes(x, y)) return;
   showCurves();
   showMarkers();
+}
+
+const std::vector<QPointF>& XyPane::comparedPoints(std::size_t curve, std::size_t session) const {
+  static const std::vector<QPointF> none;
+  const std::size_t i = session * m_curves.size() + curve;
+  return i < m_comparedPoints.size() ? m_comparedPoints[i] : none;
 }
 
 bool XyPane::layOutAxes(const ValueLimits& x, const ValueLimits& y) {
@@ -243,19 +255,23 @@ void XyPane::showCurves() {
   const auto widthOf = [this](const CurveSpec& spec) {
     return spec.width * scaled(this, 100) / 100.0;
   };
-  // Below what is shown, thinner and paler.
-  for (std::size_t i = 0; i < m_curves.size(); ++i) {
+  // Below what is shown, and thinner.
+  constexpr std::array pens{Qt::SolidLine, Qt::DashLine, Qt::DotLine, Qt::DashDotLine,
+                            Qt::DashLine};
+  for (std::size_t i = 0; i < m_comparedPoints.size(); ++i) {
     if (m_comparedPoints[i].empty()) continue;
-    const CurveSpec& spec = m_curves[i].spec();
-    const QColor color =
-        mixedColor(m_curves[i].color(), palette().color(QPalette::Base), comparedPaleness);
-    const bool future = m_feed->comparesFuture();
-    const double width = widthOf(spec) * (future ? 1.0 : comparedWidth);
-    showCurve(spec, color, width, m_comparedPoints[i], used, future ? Qt::DashLine : Qt::SolidLine);
+    const std::size_t curve = i % m_curves.size();
+    const CurveSpec& spec = m_curves[curve].spec();
+    const ComparedLook look =
+        comparedLook(m_feed->compared()[i / m_curves.size()], curve, m_curves[curve].color(),
+                     palette().color(QPalette::Base));
+    showCurve(spec, look.color, widthOf(spec) * look.width, m_comparedPoints[i], used,
+              pens[static_cast<std::size_t>(look.dash)]);
   }
   for (std::size_t i = 0; i < m_curves.size(); ++i) {
     const CurveSpec& spec = m_curves[i].spec();
-    showCurve(spec, m_curves[i].color(), widthOf(spec), m_points[i], used, Qt::SolidLine);
+    const double width = widthOf(spec) * (isPointedOut(i) ? pointedOutWidth : 1.0);
+    showCurve(spec, m_curves[i].color(), width, m_points[i], used, Qt::SolidLine);
   }
   for (std::size_t i = 0; i < m_lines.size(); ++i) m_lines[i]->setVisible(i < used);
 }

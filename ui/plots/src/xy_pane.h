@@ -32,8 +32,9 @@ class XyPane : public PlotPane {
   QWidget* surface() const override;
   bool isOverTime() const override { return false; }
   const std::vector<std::vector<QPointF>>& points() const { return m_points; }
-  /// The same of the compared session, of the time that stands beside what is shown.
-  const std::vector<std::vector<QPointF>>& comparedPoints() const { return m_comparedPoints; }
+  /// The same of a compared session, of the time that stands beside what is shown. `session`: as
+  /// in PlotFeed::compared().
+  const std::vector<QPointF>& comparedPoints(std::size_t curve, std::size_t session = 0) const;
   ValueLimits xLimits() const;
   ValueLimits yLimits() const;
   /// Titles of the lower and the left axis.
@@ -60,7 +61,8 @@ class XyPane : public PlotPane {
   ValueChart* m_chart;
   std::vector<QLineSeries*> m_lines;       // owned by the chart; the first ones are in use
   std::vector<QScatterSeries*> m_markers;  // one for each curve, above the lines
-  std::vector<std::vector<QPointF>> m_points, m_comparedPoints;
+  std::vector<std::vector<QPointF>> m_points;
+  std::vector<std::vector<QPointF>> m_comparedPoints;  // all curves of the first session, and so on
   std::pair<QString, QString> m_titles;
   bool m_fits = true;    // limits follow the points
   ValueLimits m_x, m_y;  // when they do not

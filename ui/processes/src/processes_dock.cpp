@@ -102,8 +102,8 @@ class ProcessesDock : public QStackedWidget {
         : m_shown->kind().hasPresent
             ? QStringLiteral("These robots' processes run on the robots. The letters on the cards "
                              "show which of them work.")
-            : QStringLiteral("Processes are not recorded. The letters on the cards show which of "
-                             "them worked."));
+            : QStringLiteral("Processes are not recorded. The cards name the teams' programs, and "
+                             "the letters on them show which processes worked."));
     const bool isLocked = m_controller->edits()->isLocked();
     m_asNow->setVisible(isLocked);
     m_table->setEnabled(!isLocked);

@@ -15,6 +15,8 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QTableWidget>
+#include <QToolButton>
+#include <QVBoxLayout>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -41,6 +43,7 @@ constexpr int planMilliseconds = 250;  // after the last key
 constexpr qsizetype maxRecentPrograms = 6;
 const QString recentProgramsKey = QStringLiteral("rerun/programs");
 const QString ourProgram = QStringLiteral("reference");
+const QString wholeProfile = QStringLiteral("All of a profile");
 
 struct RerunSpeed {
   const char* text;
@@ -61,10 +64,10 @@ const char* knownText(link::RerunPlan::Known known) {
   return "";
 }
 
-/// Whether our process of this name can run again.
+/// Whether our process of this name can run again: not that which only talks by radio.
 bool hasReference(const QString& process) {
-  const link::ProcessInfo* info = link::findProcess(process.toStdString());
-  return info != nullptr && info->receives.empty();
+  return link::findProcess(process.toStdString()) != nullptr &&
+         process != QLatin1String("communication");
 }
 
 QComboBox* programBox(const char* name, QWidget* parent) {
@@ -191,10 +194,11 @@ QWidget* RerunDialog::makeForm() {
   auto* named = new QLabel(QStringLiteral("&Program"), form);
   named->setBuddy(m_program);
   rows->addRow(named, program);
+  rows->addRow(makeMore(form));
   rows->addRow(makeExplanation(
       QStringLiteral("“reference” is ours, as it was recorded; decision may be a behaviour, too. "
                      "Otherwise a program with its arguments (${key}: its blackboard), or a "
-                     "runtime profile (.json)."),
+                     "runtime profile (.json), of which all processes can run."),
       form));
   rows->addRow(QStringLiteral("Also &writes"), m_writes);
   rows->addRow(QStringLiteral("&From"), m_begin);
@@ -204,7 +208,7 @@ QWidget* RerunDialog::makeForm() {
   rows->addRow(m_check);
   rows->addRow(QStringLiteral("Unchan&ged"), m_unchanged);
   m_unchanged->setEnabled(false);
-  connect(m_check, &QCheckBox::toggled, m_unchanged, &QWidget::setEnabled);
+  connect(m_check, &QCheckBox::toggled, this, &RerunDialog::showState);
   connect(m_robot, &QComboBox::currentIndexChanged, this, &RerunDialog::showProcesses);
   connect(m_process, &QComboBox::currentIndexChanged, this, &RerunDialog::showPrograms);
   connect(m_program, &QComboBox::editTextChanged, this, &RerunDialog::planSoon);
@@ -264,43 +268,156 @@ void RerunDialog::takeRecording() {
   showState();
 }
 
+/// Those of the robot in the recording.
+QStringList RerunDialog::processes() const {
+  const int at = m_robot->currentIndex();
+  return at < 0 ? QStringList() : m_robots[static_cast<std::size_t>(at)].second;
+}
+
 void RerunDialog::showProcesses() {
-  const QString before = m_process->currentText();
-  {
-    const QSignalBlocker quiet(m_process);
-    m_process->clear();
-    const int at = m_robot->currentIndex();
-    if (at >= 0) m_process->addItems(m_robots[static_cast<std::size_t>(at)].second);
-    const int kept = m_process->findText(before);
-    const int decision = m_process->findText(QStringLiteral("decision"));
-    m_process->setCurrentIndex(std::max(0, kept >= 0 ? kept : decision));
-  }
+  const auto fill = [this](QComboBox* box, const QString& usual) {
+    const QSignalBlocker quiet(box);
+    const QString before = box->currentText();
+    box->clear();
+    box->addItems(processes());
+    if (box == m_process) box->addItem(wholeProfile);
+    const int kept = box->findText(before);
+    box->setCurrentIndex(std::max(0, kept >= 0 ? kept : box->findText(usual)));
+  };
+  fill(m_process, QStringLiteral("decision"));
+  for (const Row& row : m_rows) fill(row.process, {});
   showPrograms();
+}
+
+bool RerunDialog::isWholeProfile() const {
+  return m_process->currentText() == wholeProfile;
+}
+
+QWidget* RerunDialog::makeMore(QWidget* form) {
+  auto* more = new QWidget(form);
+  m_more = new QVBoxLayout(more);
+  m_more->setContentsMargins(0, 0, 0, 0);
+  m_add = new QPushButton(QStringLiteral("&Add a process"), more);
+  m_add->setObjectName(QStringLiteral("rerunAddProcess"));
+  m_add->setToolTip(QStringLiteral("Run another process of the robot at the same time"));
+  m_add->setAutoDefault(false);
+  m_more->addWidget(m_add, 0, Qt::AlignLeft);
+  connect(m_add, &QPushButton::clicked, this, &RerunDialog::addRow);
+  return more;
+}
+
+void RerunDialog::addRow() {
+  Row row;
+  row.box = new QWidget(m_more->parentWidget());
+  row.process = new QComboBox(row.box);
+  row.process->setObjectName(QStringLiteral("rerunMoreProcess"));
+  row.process->addItems(processes());
+  for (const QString& process : processes()) {
+    const bool isFree = process != m_process->currentText() &&
+                        std::ranges::none_of(m_rows, [&process](const Row& other) {
+                          return other.process->currentText() == process;
+                        });
+    if (!isFree || !hasReference(process)) continue;
+    row.process->setCurrentText(process);
+    break;
+  }
+  row.program = programBox("rerunMoreProgram", row.box);
+  auto* remove = new QToolButton(row.box);
+  remove->setObjectName(QStringLiteral("rerunRemoveProcess"));
+  remove->setIcon(themedIcon(QStringLiteral("list-remove")));
+  remove->setAutoRaise(true);
+  remove->setToolTip(QStringLiteral("Do not run this process"));
+  remove->setAccessibleName(remove->toolTip());
+  auto* line = new QHBoxLayout(row.box);
+  line->setContentsMargins(0, 0, 0, 0);
+  line->addWidget(row.process);
+  line->addWidget(row.program, 1);
+  line->addWidget(remove);
+  m_more->insertWidget(static_cast<int>(m_rows.size()), row.box);
+  m_rows.push_back(row);
+  connect(row.process, &QComboBox::currentIndexChanged, this, &RerunDialog::showPrograms);
+  connect(row.program, &QComboBox::editTextChanged, this, &RerunDialog::planSoon);
+  connect(remove, &QToolButton::clicked, this, [this, box = row.box] { removeRow(box); });
+  showPrograms();
+  showState();
+  row.process->setFocus();
+}
+
+void RerunDialog::removeRow(const QWidget* box) {
+  const auto found = std::ranges::find(m_rows, box, &Row::box);
+  if (found == m_rows.end()) return;
+  found->box->hide();
+  found->box->deleteLater();
+  m_rows.erase(found);
+  m_add->setFocus();
+  planSoon();
+  showState();
+}
+
+std::vector<link::RerunProcess> RerunDialog::chosenProcesses() const {
+  const auto programIn = [this](const QComboBox* box) {
+    return link::besideRecording(box->currentText().trimmed().toStdString(),
+                                 m_recording.toStdString());
+  };
+  if (isWholeProfile()) return {{{}, programIn(m_program)}};
+  std::vector<link::RerunProcess> chosen{
+      {m_process->currentText().toStdString(), programIn(m_program)}};
+  for (const Row& row : m_rows) {
+    chosen.push_back({row.process->currentText().toStdString(), programIn(row.program)});
+  }
+  return chosen;
+}
+
+/// What ran when it was recorded: the first process as typed, the others as the recording tells.
+Result<std::vector<link::RerunProcess>> RerunDialog::unchangedProcesses() const {
+  std::vector<link::RerunProcess> unchanged = m_recordedAs;
+  if (!isWholeProfile()) {
+    const std::string first = m_process->currentText().toStdString();
+    std::erase_if(unchanged, [&first](const auto& process) { return process.name == first; });
+    unchanged.insert(
+        unchanged.begin(),
+        {first, link::besideRecording(m_unchanged->currentText().trimmed().toStdString(),
+                                      m_recording.toStdString())});
+  }
+  for (const link::RerunProcess& process : unchanged) {
+    if (!process.program.empty()) continue;
+    return failure(ErrorCode::InvalidArgument,
+                   unchanged.size() == 1 && !isWholeProfile()
+                       ? "To check reproducibility, say which program is the unchanged one."
+                       : "To check reproducibility, it must be known what ran. The recording does "
+                         "not tell it of " +
+                             process.name + '.');
+  }
+  return unchanged;
 }
 
 void RerunDialog::showPrograms() {
   const QString process = m_process->currentText();
+  fillPrograms(m_program, process, true);
+  fillPrograms(m_unchanged, process, false);
+  for (const Row& row : m_rows) fillPrograms(row.program, row.process->currentText(), true);
+  showState();
+  planSoon();
+}
+
+void RerunDialog::fillPrograms(QComboBox* box, const QString& process, bool proposesOurs) {
   const QStringList recent = m_parts.settings == nullptr
                                  ? QStringList()
                                  : m_parts.settings->value(recentProgramsKey).toStringList();
-  for (QComboBox* box : {m_program, m_unchanged}) {
-    const QSignalBlocker quiet(box);
-    const QString before = box->currentText();
-    box->clear();
-    box->addItems(recent);
-    if (hasReference(process)) {
-      box->addItem(ourProgram);
-      if (process == QLatin1String("decision")) {
-        for (const link::BehaviourInfo& behaviour : link::behaviours()) {
-          box->addItem(QString::fromUtf8(behaviour.name.data(),
-                                         static_cast<qsizetype>(behaviour.name.size())));
-        }
-      }
+  const bool ours = hasReference(process) || process == wholeProfile;
+  const QSignalBlocker quiet(box);
+  const QString before = box->currentText();
+  box->clear();
+  box->addItems(process == wholeProfile ? recent.filter(QStringLiteral(".json")) : recent);
+  if (ours) box->addItem(ourProgram);
+  if (process == QLatin1String("decision")) {
+    for (const link::BehaviourInfo& behaviour : link::behaviours()) {
+      box->addItem(
+          QString::fromUtf8(behaviour.name.data(), static_cast<qsizetype>(behaviour.name.size())));
     }
-    const QString usual = box == m_program && hasReference(process) ? ourProgram : QString();
-    box->setEditText(before.isEmpty() ? usual : before);
   }
-  planSoon();
+  const QString usual = proposesOurs && ours ? ourProgram : QString();
+  box->setEditText(before.isEmpty() ? usual : before);
 }
 
 void RerunDialog::browse(QComboBox* program) {
@@ -315,12 +432,7 @@ Result<RerunOrder> RerunDialog::order() const {
   RerunOrder order;
   link::RerunOptions& options = order.options;
   options.robot = m_robot->currentText().toStdString();
-  const std::string process = m_process->currentText().toStdString();
-  const auto programIn = [this](const QComboBox* box) {
-    return link::besideRecording(box->currentText().trimmed().toStdString(),
-                                 m_recording.toStdString());
-  };
-  options.processes = {{process, programIn(m_program)}};
+  options.processes = chosenProcesses();
   for (const QString& one : m_writes->text().split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
     options.writes.push_back(one.toStdString());
   }
@@ -344,9 +456,6 @@ Result<RerunOrder> RerunDialog::order() const {
     }
   }
   options.speed = m_speed->currentData().toDouble();
-  if (m_check->isChecked()) {
-    order.unchanged = link::RerunProcess{process, programIn(m_unchanged)};
-  }
   return order;
 }
 
@@ -395,11 +504,23 @@ void RerunDialog::showPlan(const Result<link::RerunPlan>& plan) {
                         QString::fromStdString(secondsToText(plan->start)));
     }
     if (plan->missing.empty()) {
+      QStringList names;
+      for (const link::RerunProcess& process : plan->processes) {
+        names << QString::fromStdString(process.name);
+      }
       notes.prepend(
-          QStringLiteral("Everything that %1 reads was recorded.").arg(m_process->currentText()));
+          QStringLiteral("Everything that %1 %2 was recorded.")
+              .arg(names.join(names.size() == 2 ? QStringLiteral(" and ") : QStringLiteral(", ")),
+                   names.size() == 1 ? QStringLiteral("reads") : QStringLiteral("read")));
     }
     m_notes->setText(notes.join(QLatin1Char('\n')));
-    const QString recorded = QString::fromStdString(plan->recorded);
+    m_recordedAs = plan->recorded;
+    QString recorded;
+    for (const link::RerunProcess& process : plan->recorded) {
+      if (process.name == m_process->currentText().toStdString()) {
+        recorded = QString::fromStdString(process.program);
+      }
+    }
     if (m_unchanged->currentText() == m_proposed) m_unchanged->setEditText(recorded);
     m_proposed = recorded;
     if (!m_started) showMessage({}, false);
@@ -413,19 +534,24 @@ void RerunDialog::showPlan(const Result<link::RerunPlan>& plan) {
 }
 
 void RerunDialog::start() {
-  const auto wanted = order();
+  auto wanted = order();
   if (!wanted) return showMessage(QString::fromStdString(wanted.error().text()), true);
-  if (wanted->unchanged && wanted->unchanged->program.empty()) {
-    return showMessage(QStringLiteral("To check reproducibility, say which program is the "
-                                      "unchanged one."),
-                       true);
+  if (m_check->isChecked()) {
+    auto unchanged = unchangedProcesses();
+    if (!unchanged) {
+      return showMessage(QString::fromStdString(unchanged.error().message), true);
+    }
+    wanted->unchanged = std::move(*unchanged);
   }
   if (m_parts.settings != nullptr) {
     QStringList recent = m_parts.settings->value(recentProgramsKey).toStringList();
     const auto isOurs = [](const QString& program) {
       return program == ourProgram || link::findBehaviour(program.toStdString()) != nullptr;
     };
-    for (const QComboBox* box : {m_unchanged, m_program}) {
+    std::vector<const QComboBox*> boxes{m_unchanged};
+    for (const Row& row : m_rows) boxes.push_back(row.program);
+    boxes.push_back(m_program);
+    for (const QComboBox* box : boxes) {
       const QString program = box->currentText().trimmed();
       if (!box->isEnabled() || program.isEmpty() || isOurs(program)) continue;
       recent.removeAll(program);
@@ -461,7 +587,10 @@ void RerunDialog::showState() {
                           static_cast<QWidget*>(m_speed), static_cast<QWidget*>(m_check)}) {
     choice->setEnabled(!running);
   }
-  m_unchanged->setEnabled(!running && m_check->isChecked());
+  m_unchanged->setEnabled(!running && m_check->isChecked() && !isWholeProfile());
+  m_add->setEnabled(!running && !isWholeProfile() &&
+                    static_cast<qsizetype>(m_rows.size()) + 1 < processes().size());
+  for (const Row& row : m_rows) row.box->setEnabled(!running && !isWholeProfile());
   if (running || !m_started || rerunner.problem().isEmpty() || !isVisible()) return;
   showMessage(rerunner.problem(), true);
   m_started = false;

@@ -80,7 +80,7 @@ void Rerunner::start(const RerunOrder& order) {
 
 void Rerunner::again() {
   if (!canRunAgain()) return;
-  m_order->unchanged.reset();  // it has been checked
+  m_order->unchanged.clear();  // it has been checked
   run(true);
 }
 
@@ -88,7 +88,7 @@ void Rerunner::run(bool again) {
   cancel();
   m_problem.clear();
   m_progress = 0.0;
-  m_checking = m_order->unchanged.has_value();
+  m_checking = !m_order->unchanged.empty();
   if (!m_folder) m_folder = makeCacheFolder(QStringLiteral("rerun"));
   const QDir folder(m_folder->filePath(QString::number(++m_count)));
   QDir().mkpath(folder.path());
@@ -130,9 +130,9 @@ Rerunner::Made Rerunner::make(const std::string& path, RerunOrder order, const s
     }
     return !*cancelled;
   };
-  if (order.unchanged) {
+  if (!order.unchanged.empty()) {
     link::RerunOptions same = order.options;
-    same.processes = {*order.unchanged};
+    same.processes = order.unchanged;
     same.unchanged.clear();
     same.isUnchanged = true;
     const auto found = link::rerun(*session, same);

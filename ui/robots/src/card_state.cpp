@@ -7,10 +7,10 @@
 
 #include <base/angles.h>
 #include <robotlink/processes/process_manager.h>
-#include <robotlink/scenario/scenario.h>
 #include <simcore/world/published_frame.h>
 #include <ui/base/referee_text.h>
 #include <ui/base/robot_text.h>
+#include <ui/sources/decider_text.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -218,17 +218,7 @@ QString CardState::process(std::size_t lamp) const {
 QString subtitleOf(const link::RobotFrame& robot) {
   QStringList parts;
   if (!robot.ownName.empty()) parts << QString::fromStdString(robot.ownName);
-  QStringList programs;
-  for (const link::ProcessStatus& one : robot.processes()) {
-    if (one.isTeamProgram) programs << programName(one);
-  }
-  programs.removeDuplicates();
-  if (!programs.isEmpty()) {
-    parts << programs.join(QStringLiteral(", "));
-  } else if (!robot.behaviour.empty()) {
-    parts << (robot.behaviour == link::noBehaviour ? QStringLiteral("team program")
-                                                   : capitalised(robot.behaviour));
-  }
+  if (const QString decider = deciderText(robot); !decider.isEmpty()) parts << decider;
   return parts.join(QStringLiteral(" · "));
 }
 

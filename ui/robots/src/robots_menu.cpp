@@ -4,7 +4,7 @@
 #include <QSettings>
 #include <algorithm>
 
-#include <telemetry/wire/meanings.h>
+#include <telemetry/formats/meanings.h>
 #include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
 #include <ui/base/theme.h>

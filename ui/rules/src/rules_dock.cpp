@@ -23,16 +23,6 @@
 namespace pitchboard::ui {
 namespace {
 
-/// The first few, so that there is room for the table.
-QString shortListOf(const QStringList& problems) {
-  constexpr qsizetype most = 2;
-  QStringList lines = problems.mid(0, most);
-  if (problems.size() > most) {
-    lines << QStringLiteral("%1 more like these").arg(problems.size() - most);
-  }
-  return lines.join(QLatin1Char('\n'));
-}
-
 class RulesDock : public QWidget {
  public:
   RulesDock(RuleWatch* rules, ShownMoment* shown, QWidget* parent)

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <base/try.h>
 #include <robotlink/import/import_session.h>
-#include <robotlink/session/join_recording.h>
 #include <ui/base/cache_folder.h>
 
 namespace pitchboard::ui {
@@ -49,20 +49,29 @@ QStringList sentencesOf(const std::vector<std::string>& notes) {
 
 }  // namespace
 
-void RecordingImport::start(const QString& path) {
-  run(path, [from = path.toStdString()](const std::string& to, const auto& progress) {
-    return link::importRecordings({from}, to, {}, progress).map([](const auto& report) {
-      return sentencesOf(report.notes);
-    });
-  });
+void RecordingImport::start(const QStringList& recordings, const QString& mappingFile) {
+  std::vector<std::string> files;
+  for (const QString& path : recordings) files.push_back(path.toStdString());
+  run(recordings.first(),
+      [files, mapping = mappingFile.toStdString()](const std::string& to,
+                                                   const auto& progress) -> Result<QStringList> {
+        link::ImportOptions options;
+        if (!mapping.empty()) options.mapping = TRY(link::mappingFromFile(mapping));
+        const auto report = TRY(link::importRecordings(files, to, options, progress));
+        return sentencesOf(report.notes);
+      });
 }
 
-void RecordingImport::join(const QString& session, const QString& recording) {
-  run(recording, [session = session.toStdString(), recording = recording.toStdString()](
+void RecordingImport::join(const QString& session, const QString& recording,
+                           const link::JoinOptions& options) {
+  run(recording, [session = session.toStdString(), recording = recording.toStdString(), options](
                      const std::string& to, const auto& progress) {
-    return link::joinRecording(session, recording, to, {}, progress).map([](const auto& report) {
-      return sentencesOf({report.summary() + '.'});
-    });
+    return link::joinRecording(session, recording, to, options, progress)
+        .map([](const auto& report) {
+          std::vector<std::string> sentences = report.notes;
+          sentences.insert(sentences.begin(), report.summary() + '.');
+          return sentencesOf(sentences);
+        });
   });
 }
 

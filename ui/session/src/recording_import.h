@@ -15,6 +15,7 @@
 #include <string>
 
 #include <base/result.h>
+#include <robotlink/session/join_recording.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
 
@@ -33,9 +34,12 @@ class RecordingImport : public QObject {
   /// MCAP files can be ours, too; ReplayController tells them apart.
   static bool isOfOthers(const QString& path);
   /// Imports a file or folder; an import that runs is cancelled.
-  void start(const QString& path);
+  void start(const QString& path) { start(QStringList{path}, {}); }
+  /// Imports recordings on one clock, with the mapping of a file; empty: the one beside the first
+  /// recording, or the usual one.
+  void start(const QStringList& recordings, const QString& mappingFile);
   /// Joins what a robot recorded itself to a session, in the same way.
-  void join(const QString& session, const QString& recording);
+  void join(const QString& session, const QString& recording, const link::JoinOptions& options);
 
  signals:
   /// The session is made. `notes` say what was not understood.

@@ -19,6 +19,7 @@
 #include <ui/sources/shown_moment.h>
 
 #include "follow_dialog.h"
+#include "join_dialog.h"
 #include "recording_import.h"
 
 namespace pitchboard::ui {
@@ -28,15 +29,15 @@ using Poses = link::MomentOptions::Poses;
 
 const QString suffix = QStringLiteral("mcap");
 
-QString droppedSession(const QMimeData* data) {
+QStringList droppedSessions(const QMimeData* data) {
+  QStringList paths;
   for (const QUrl& url : data->urls()) {
     if (!url.isLocalFile()) continue;
     const QString path = url.toLocalFile();
-    if (QFileInfo(path).suffix().toLower() == suffix || RecordingImport::isOfOthers(path)) {
-      return path;
-    }
+    const bool isSession = QFileInfo(path).suffix().toLower() == suffix;
+    if (isSession || RecordingImport::isOfOthers(path)) paths << path;
   }
-  return {};
+  return paths;
 }
 
 // Topics of notices.
@@ -89,8 +90,10 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
   connect(replay, &ReplayController::failed, this, [this](const QString& sentence) {
     m_before.clear();
     m_notices->show({openTopic}, sentence);
+    openBeside();
   });
-  connect(replay, &ReplayController::foreignFound, m_import, &RecordingImport::start);
+  connect(replay, &ReplayController::foreignFound, this,
+          [this](const QString& path) { importWith({path}, {}); });
   connect(m_import, &RecordingImport::imported, this, &SessionFiles::showImported);
   connect(m_import, &RecordingImport::failed, this,
           [this](const QString& sentence) { m_notices->show({importTopic}, sentence); });
@@ -104,6 +107,7 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
     if (!before.isEmpty() && before != m_replay->recording()) emit replaced();
     m_shown->choose(m_replay);
     showTitle();
+    openBeside();
     if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
     if (m_replay->isGrowing()) m_notices->show({contentTopic}, growingText(m_replay->path()));
   });
@@ -168,15 +172,39 @@ void SessionFiles::showImported(const QString& recording, const QString& session
                      "Timeline > Export….")
                      .arg(QFileInfo(recording).fileName());
   if (!notes.isEmpty()) text += QLatin1Char(' ') + shortened(notes);
-  m_notices->show({importTopic}, text);
+  m_imported = std::exchange(m_importing, {});
+  m_importedSession = session;
+  std::vector<NoticeButton> buttons;
+  if (!m_imported.isEmpty()) {
+    buttons.push_back({QStringLiteral("Map topics…"),
+                       [this, recordings = m_imported] { emit mappingWanted(recordings); }});
+    buttons.push_back({QStringLiteral("Close"), {}});
+  }
+  m_notices->show({importTopic}, text, buttons);
   m_before = m_replay->recording();
   m_replay->open(session);
 }
 
+/// The others of several files that were dropped at once.
+void SessionFiles::openBeside() {
+  const QStringList others = std::exchange(m_beside, {});
+  if (!others.isEmpty()) emit besideRequested(others);
+}
+
+void SessionFiles::importWith(const QStringList& recordings, const QString& mappingFile) {
+  m_importing = recordings;
+  m_import->start(recordings, mappingFile);
+}
+
+QStringList SessionFiles::importedRecordings() const {
+  return m_replay->path() == m_importedSession ? m_imported : QStringList();
+}
+
 void SessionFiles::open(const QString& path) {
+  m_beside.clear();
   m_notices->settle(repairedTopic);
   m_notices->settle(importTopic);
-  if (RecordingImport::isOfOthers(path)) return m_import->start(path);
+  if (RecordingImport::isOfOthers(path)) return importWith({path}, {});
   m_before = m_replay->recording();
   m_replay->open(path);
 }
@@ -188,11 +216,29 @@ void SessionFiles::askAndOpen() {
 
 void SessionFiles::askAndJoin() {
   const QString path = askForFile(QStringLiteral("Add recording of a robot"));
-  if (!path.isEmpty()) m_import->join(m_replay->path(), path);
+  if (!path.isEmpty()) askHowToJoin(path);
 }
 
+void SessionFiles::askHowToJoin(const QString& recording) {
+  const QString session = m_replay->path();
+  auto* dialog = new JoinDialog(session, recording, m_window,
+                                [this, session, recording](const link::JoinOptions& options) {
+                                  m_importing.clear();
+                                  m_import->join(session, recording, options);
+                                });
+  dialog->open();
+}
+
+namespace {
+const QString sessionFilter = QStringLiteral("Sessions (*.mcap);;All files (*)");
+}  // namespace
+
 QString SessionFiles::askForFile(const QString& title) {
-  return askToOpen(m_window, title, QStringLiteral("Sessions (*.mcap);;All files (*)"));
+  return askToOpen(m_window, title, sessionFilter);
+}
+
+QStringList SessionFiles::askForFiles(const QString& title) {
+  return askToOpenSeveral(m_window, title, sessionFilter);
 }
 
 void SessionFiles::repair(const QString& path) {
@@ -224,17 +270,18 @@ void SessionFiles::repair(const QString& path) {
 bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::DragEnter) {
     auto* drag = static_cast<QDragEnterEvent*>(event);
-    if (!droppedSession(drag->mimeData()).isEmpty()) {
+    if (!droppedSessions(drag->mimeData()).isEmpty()) {
       drag->acceptProposedAction();
       return true;
     }
   }
   if (event->type() == QEvent::Drop) {
     auto* drop = static_cast<QDropEvent*>(event);
-    const QString path = droppedSession(drop->mimeData());
-    if (!path.isEmpty()) {
+    const QStringList paths = droppedSessions(drop->mimeData());
+    if (!paths.isEmpty()) {
       drop->acceptProposedAction();
-      open(path);
+      open(paths.front());
+      m_beside = paths.mid(1);
       return true;
     }
   }

@@ -8,7 +8,7 @@
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/serve/served_match.h>
 #include <robotlink/session/match_sampler.h>
-#include <telemetry/wire/live_clock.h>
+#include <telemetry/sockets/live_clock.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/replay_controller.h>

@@ -2,6 +2,8 @@
 #include <ui/sources/compared_session.h>
 
 #include <QFileInfo>
+#include <cmath>
+#include <utility>
 
 #include <ui/sources/shown_moment.h>
 
@@ -9,8 +11,8 @@
 
 namespace pitchboard::ui {
 
-ComparedSession::ComparedSession(ShownMoment* shown, QObject* parent)
-    : QObject(parent), m_shown(shown), m_events(new EventCollector(&m_file)) {
+ComparedSession::ComparedSession(quint64 id, ShownMoment* shown, QObject* parent)
+    : QObject(parent), m_id(id), m_shown(shown), m_events(new EventCollector(&m_file)) {
   connect(shown, &ShownMoment::moved, this, &ComparedSession::showMoment);
   connect(shown, &ShownMoment::sourceChanged, this, [this] {
     m_here.reset();
@@ -22,32 +24,43 @@ ComparedSession::ComparedSession(ShownMoment* shown, QObject* parent)
     const auto range = m_file.available();
     // A moment that comes late: what is shown has gone on beyond the session.
     const bool inside = range && there >= range->begin - 1e-6 && there <= range->end + 1e-6;
-    emit momentReached(inside ? frame : nullptr);
+    emit momentReached(inside && m_isOnField ? frame : nullptr);
   });
   connect(&m_file, &ReplayController::opened, this, [this] {
-    m_here.reset();
-    m_there.reset();
     m_offset = offsetByTime();
+    emit opened();
     showMoment();
-    emit changed();
   });
   connect(&m_file, &ReplayController::loadedChanged, this, &ComparedSession::rowsCame);
   connect(&m_file, &ReplayController::rowsCame, this, &ComparedSession::rowsCame);
   connect(&m_file, &ReplayController::failed, this, &ComparedSession::failed);
+  connect(&m_file, &ReplayController::foreignFound, this, [this](const QString& path) {
+    emit failed(QStringLiteral("%1 was recorded by another program. Import it with File > Open "
+                               "session…, then export it as a session.")
+                    .arg(QFileInfo(path).fileName()));
+  });
 }
 
 void ComparedSession::open(const QString& path) {
   m_file.open(path);
 }
 
-void ComparedSession::stop() {
-  m_file.close();
-  emit momentReached(nullptr);
-  emit changed();
+QString ComparedSession::name() const {
+  return QFileInfo(m_file.path()).completeBaseName();
+}
+
+void ComparedSession::setMemoryBudget(std::size_t bytes) {
+  m_budget = bytes;
+  m_file.setMemoryBudget(bytes);
+}
+
+std::size_t ComparedSession::memoryUse() const {
+  const auto rows = series();
+  return rows && m_file.loaded() == 1.0 ? rows->memoryBytes() : m_budget;
 }
 
 const EventList* ComparedSession::events() const {
-  return isOn() ? m_events->list() : nullptr;
+  return m_events->list();
 }
 
 void ComparedSession::setOffset(double seconds) {
@@ -86,9 +99,21 @@ double ComparedSession::offsetByTime() const {
   return here->begin - there->begin;
 }
 
+void ComparedSession::setOnField(bool on) {
+  if (std::exchange(m_isOnField, on) == on) return;
+  if (on)
+    showMoment();
+  else
+    emit momentReached(nullptr);
+  emit changed();
+}
+
+void ComparedSession::setInPlots(bool on) {
+  if (std::exchange(m_isInPlots, on) != on) emit changed();
+}
+
 QString ComparedSession::caption() const {
-  if (!isOn()) return {};
-  QString text = QFileInfo(m_file.path()).completeBaseName();
+  QString text = name();
   if (m_offset != 0.0) {
     text += QStringLiteral(" · %1%2 s")
                 .arg(m_offset < 0 ? QChar(0x2212) : QLatin1Char('+'))
@@ -100,7 +125,7 @@ QString ComparedSession::caption() const {
 }
 
 void ComparedSession::showMoment() {
-  if (!isOn()) return;
+  if (!m_file.isOpen() || !m_isOnField) return;
   const auto range = m_file.available();
   const double there = m_shown->time() - m_offset;
   if (!range || there < range->begin || there > range->end) {

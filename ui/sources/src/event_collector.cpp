@@ -29,7 +29,8 @@ EventCollector::EventCollector(FrameSource* source) : QObject(source), m_list(ne
           [this](const std::vector<link::MatchEvent>& events) { m_list->add(events); });
   if (auto* match = qobject_cast<MatchController*>(source)) {
     connect(match, &MatchController::retiring, this, [this](RetiredMatch& retired) {
-      retired.events.assign(m_list->events().begin(), m_list->events().end());
+      std::ranges::remove_copy_if(m_list->events(), std::back_inserter(retired.events),
+                                  isMadeByStudio);
     });
     connect(match->memory(), &MatchMemory::branching, this, [this](MatchBranch& left) {
       std::ranges::copy_if(m_list->events(), std::back_inserter(left.events),

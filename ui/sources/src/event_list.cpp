@@ -18,6 +18,15 @@ bool isBookmark(const link::MatchEvent& event) {
   return event.kind == link::MatchEventKind::Bookmark;
 }
 
+/// What a person wrote or drew.
+bool isPersonal(const link::MatchEvent& event) {
+  return isBookmark(event) || event.kind == link::MatchEventKind::Note;
+}
+
+bool isBrokenRule(const link::MatchEvent& event) {
+  return event.kind == link::MatchEventKind::RuleBroken;
+}
+
 void shorten(link::MatchEvent& event) {
   if (event.detail.size() <= EventList::maxNote) return;
   event.detail = QString::fromStdString(event.detail).left(EventList::maxNote).toStdString();
@@ -33,10 +42,14 @@ void EventList::touch() {
   emit changed();
 }
 
-// A flood of kicks must not push out what a person wrote.
+// A flood of kicks must not push out what a person wrote, nor broken rules, which the panel Rules
+// lists as well, what happened in the match.
 void EventList::makeRoom() {
   if (m_events.size() < m_most) return;
-  auto oldest = std::find_if_not(m_events.begin(), m_events.end(), isBookmark);
+  auto oldest = std::find_if(m_events.begin(), m_events.end(), isBrokenRule);
+  if (oldest == m_events.end()) {
+    oldest = std::find_if_not(m_events.begin(), m_events.end(), isPersonal);
+  }
   if (oldest == m_events.end()) oldest = m_events.begin();
   const int row = static_cast<int>(oldest - m_events.begin());
   beginRemoveRows({}, row, row);
@@ -85,12 +98,25 @@ void EventList::add(std::vector<link::MatchEvent> events) {
     std::size_t surplus = m_events.size() - m_most;
     m_dropped += surplus;
     std::erase_if(m_events, [&surplus](const link::MatchEvent& event) {
-      return surplus > 0 && !isBookmark(event) && surplus-- > 0;
+      return surplus > 0 && isBrokenRule(event) && surplus-- > 0;
+    });
+    std::erase_if(m_events, [&surplus](const link::MatchEvent& event) {
+      return surplus > 0 && !isPersonal(event) && surplus-- > 0;
     });
     if (m_events.size() > m_most)
       m_events.erase(m_events.begin(), m_events.end() - static_cast<std::ptrdiff_t>(m_most));
   }
   endResetModel();
+  touch();
+}
+
+void EventList::replace(link::MatchEventKind kind, std::vector<link::MatchEvent> events) {
+  const auto isOld = [kind](const link::MatchEvent& event) { return event.kind == kind; };
+  if (events.empty() && std::ranges::none_of(m_events, isOld)) return;
+  beginResetModel();
+  std::erase_if(m_events, isOld);
+  endResetModel();
+  add(std::move(events));
   touch();
 }
 

@@ -218,7 +218,10 @@ std::shared_ptr<RetiredMatch> MatchController::bringBack(
   m_options.match = back.options.match;
   m_nextCatalog = back.catalog;
   openAfter(back.scenario, back.paused, {}, std::make_shared<RetiredMatch>(back));
-  if (hadRows) emit eventsRecorded(back.events);
+  if (hadRows) {
+    emit eventsRecorded(back.events);
+    emit broughtBack(back);
+  }
   if (back.moment) m_memory->reportLosses(*back.moment, m_options.cognition);
   return replaced;
 }

@@ -86,10 +86,10 @@ double MatchRows::timeBeside() {
 
 MatchMemory::MatchMemory(MatchController* match) : QObject(match), m_match(match) {
   connect(match, &MatchController::frameReceived, this,
-          [this](const FramePtr& frame) { noteBehaviours(*frame); });
+          [this](const FramePtr& frame) { noteThinking(*frame); });
   connect(match, &MatchController::rewound, this, [this](double time) {
-    for (auto& [robot, list] : m_kept.behaviours) {
-      std::erase_if(list, [time](const auto& one) { return one.first > time; });
+    for (auto& [robot, list] : m_kept.thinking) {
+      std::erase_if(list, [time](const auto& one) { return one.from > time; });
     }
   });
 }
@@ -154,11 +154,13 @@ void MatchMemory::setSampling(int everyNth) {
   });
 }
 
-void MatchMemory::noteBehaviours(const link::MatchFrame& frame) {
+void MatchMemory::noteThinking(const link::MatchFrame& frame) {
   for (const link::RobotFrame& robot : frame.robots) {
-    auto& list = m_kept.behaviours[robot.uid];
-    if (list.empty() || list.back().second != robot.behaviour)
-      list.emplace_back(list.empty() ? 0.0 : frame.snapshot.time, robot.behaviour);
+    auto& list = m_kept.thinking[robot.uid];
+    if (!list.empty() && list.back().behaviour == robot.behaviour &&
+        list.back().programs == robot.programs)
+      continue;
+    list.push_back({list.empty() ? 0.0 : frame.snapshot.time, robot.behaviour, robot.programs});
   }
 }
 
@@ -177,10 +179,12 @@ FramePtr MatchMemory::frameAt(double time) const {
   link::keyDrawings(*past);
   // Rows do not tell what was changed by hand while the match ran.
   for (link::RobotFrame& robot : past->robots) {
-    const auto known = m_kept.behaviours.find(robot.uid);
-    if (known == m_kept.behaviours.end()) continue;
-    for (const auto& [from, behaviour] : known->second) {
-      if (from <= past->snapshot.time) robot.behaviour = behaviour;
+    const auto known = m_kept.thinking.find(robot.uid);
+    if (known == m_kept.thinking.end()) continue;
+    for (const Kept::Thinking& one : known->second) {
+      if (one.from > past->snapshot.time) break;
+      robot.behaviour = one.behaviour;
+      robot.programs = one.programs;
     }
   }
   const auto tick = static_cast<std::uint64_t>(

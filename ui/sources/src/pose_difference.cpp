@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <base/angles.h>
+#include <telemetry/monitor/team_setup.h>
 
 namespace pitchboard::ui {
 

@@ -11,8 +11,10 @@
 #include <robotlink/session/match_recorder.h>
 #include <robotlink/session/recorded_frame.h>
 #include <robotlink/session/session_events.h>
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/session_notes.h>
 #include <ui/base/robot_text.h>
+#include <ui/sources/event_list.h>
 
 #include "replay_pages.h"
 
@@ -48,9 +50,16 @@ double firstMomentOf(const telemetry::SessionReader& session, telemetry::TimeRan
   return last;
 }
 
-/// Rows on their way into memory; looks now and then whether anybody still wants them. Up to
-/// `whole` (s) every row is there. What is damaged anywhere in the file, in sentences.
-QStringList readRows(const QString& path, telemetry::SeriesStore& store, std::atomic<double>& whole,
+/// How far the rows of a file are in memory; s.
+struct RowsRead {
+  static constexpr double never = std::numeric_limits<double>::infinity();
+  std::atomic<double> first = never;   ///< of the first row, which may have been dropped since
+  std::atomic<double> whole = -never;  ///< up to here every row has been read
+};
+
+/// Rows on their way into memory; looks now and then whether anybody still wants them. What is
+/// damaged anywhere in the file, in sentences.
+QStringList readRows(const QString& path, telemetry::SeriesStore& store, RowsRead& read,
                      const std::function<bool(double)>& goOn) {
   const auto session = telemetry::SessionReader::open(path.toStdString());
   if (!session) return {};
@@ -66,15 +75,16 @@ QStringList readRows(const QString& path, telemetry::SeriesStore& store, std::at
   const double length = std::max(range->end - range->begin, 1e-9);
   session->rows(*range, {}, [&](telemetry::GroupId group, const telemetry::RowView& row) {
     store.append(ids[group], row);
+    if (row.time < read.first) read.first = row.time;
     if (++rows % rowsBetweenLooks == 0) {
       // Groups do not come quite in step.
       constexpr double disorder = 1.0;
-      whole = row.time - disorder;
+      read.whole = row.time - disorder;
       wanted = goOn((row.time - range->begin) / length);
     }
     return wanted;
   });
-  if (wanted) whole = range->end;
+  if (wanted) read.whole = range->end;
   if (!wanted || !session->check([&goOn](double) { return goOn(1.0); })) return {};
   QStringList damage;
   if (!session->isDamaged()) return damage;
@@ -100,6 +110,7 @@ struct ReplayController::File {
   link::RecordedFrames memoryFrames;  // UI thread
   std::shared_ptr<telemetry::SeriesStore> rows;
   std::vector<link::MatchEvent> events;
+  telemetry::DrawnNotes drawn;
   std::vector<LogLine> log;
   std::string scenario;
   QString recording;
@@ -108,7 +119,7 @@ struct ReplayController::File {
   bool live = false;   ///< moments are made of datagrams, which only the file holds
   bool paged = false;  ///< its rows do not fit
   bool unrepeatable = false;
-  std::atomic<double> whole = -std::numeric_limits<double>::infinity();  ///< readRows()
+  RowsRead read;
   double start = 0.0;
   QStringList notes;
   FramePtr first;
@@ -126,6 +137,7 @@ struct ReplayController::File {
 
   void readEvents() {
     events = link::eventsOf(session);
+    std::erase_if(events, isMadeByStudio);
     constexpr std::size_t maxLines = 10'000;
     session.messages(telemetry::SessionStream::Log, range,
                      [this](double time, std::string_view json) {
@@ -173,6 +185,11 @@ bool ReplayController::isGrowing() const {
 
 bool ReplayController::isUnrepeatable() const {
   return m_file && m_file->unrepeatable;
+}
+
+std::span<const telemetry::DrawnNote> ReplayController::drawnNotes() const {
+  return m_file ? std::span<const telemetry::DrawnNote>(m_file->drawn.notes)
+                : std::span<const telemetry::DrawnNote>();
 }
 
 std::string ReplayController::attachedScenario() const {
@@ -237,6 +254,9 @@ void ReplayController::open(const QString& path, const QString& recording) {
       if (auto scenario = file->session.attachment(link::scenarioAttachment)) {
         file->scenario = std::move(*scenario);
       }
+      // What is wrong with them, the reader has noted.
+      const std::string named = (recording.isEmpty() ? path : recording).toStdString();
+      if (auto drawn = telemetry::readDrawnNotes(named)) file->drawn = std::move(*drawn);
       file->growing = file->session.isGrowing();
       file->broken = !file->session.complete() && !file->growing;
       file->unrepeatable = !link::isRunRepeatable(path.toStdString()).value_or(true);
@@ -301,7 +321,7 @@ FramePtr ReplayController::frameAt(double time) const {
   const auto held = m_file->rows->range();
   // Memory answers at once where it holds what came before this moment as well, and every robot's
   // row of the moment itself.
-  if (held && held->begin <= m_file->range.begin + 1e-9 && time <= m_file->whole) {
+  if (held && held->begin <= m_file->range.begin + 1e-9 && time <= m_file->read.whole) {
     return std::make_shared<link::MatchFrame>(m_file->memoryFrames.frameAt(*m_file->rows, time));
   }
   return nullptr;
@@ -357,7 +377,7 @@ void ReplayController::load() {
       });
     };
     const QStringList damage =
-        readRows(path, *rows, file->whole, [this, mine, &reportProgress](double part) {
+        readRows(path, *rows, file->read, [this, mine, &reportProgress](double part) {
           if (part < 1.0) reportProgress(part);
           return mine == m_loading;
         });
@@ -412,9 +432,8 @@ void ReplayController::setMemoryBudget(std::size_t bytes) {
 void ReplayController::noteWhatDoesNotFit() {
   constexpr double chunk = 1.0;  // s; groups do not begin all at once
   const auto held = m_file ? m_file->rows->range() : std::nullopt;
-  if (!held || held->begin <= m_file->range.begin + chunk) return;
   // Robots may have come later than events and datagrams.
-  if (m_file->rows->memoryBytes() < m_budget / 2) return;
+  if (!held || held->begin <= m_file->read.first + chunk) return;
   emit noted(
       {QStringLiteral(
            "The session does not fit into memory (%1 MB), so plots show its last %2. You can still "

@@ -117,6 +117,7 @@ void RuleWatch::restart() {
     m_broken.clear();
     endResetModel();
   }
+  listEvents();
   m_since = m_shown->now();
   if (!m_rules.empty() && (!isRecording() || !m_replay->path().isEmpty())) {
     m_search = std::make_shared<Search>(telemetry::questionsOf(m_rules));
@@ -193,6 +194,7 @@ void RuleWatch::take(const std::shared_ptr<Search>& search, Progress&& found) {
                              [](const BrokenRule& one) { return one.moment.range.begin; });
     if (m_broken.size() > maxBroken) m_broken.erase(m_broken.begin(), m_broken.end() - maxBroken);
     endResetModel();
+    listEvents();
   } else {
     QString sentence;
     int news = 0;
@@ -226,6 +228,7 @@ bool RuleWatch::list(BrokenRule&& one) {
       std::ranges::upper_bound(m_broken, one.moment.range.begin, {},
                                [](const BrokenRule& each) { return each.moment.range.begin; });
   const int row = static_cast<int>(place - m_broken.begin());
+  m_shown->events()->add(eventOf(one));
   beginInsertRows({}, row, row);
   m_broken.insert(place, std::move(one));
   endInsertRows();
@@ -235,6 +238,27 @@ bool RuleWatch::list(BrokenRule&& one) {
     endRemoveRows();
   }
   return isNews;
+}
+
+/// A rule that is broken for a while is one event, at its beginning.
+link::MatchEvent RuleWatch::eventOf(const BrokenRule& one) const {
+  const telemetry::Rule& rule = ruleOf(one);
+  RobotUid robot{};
+  if (const FramePtr frame = m_shown->newest()) {
+    const auto found = std::ranges::find(frame->robots, one.moment.robot, &link::RobotFrame::name);
+    if (found != frame->robots.end()) robot = found->uid;
+  }
+  link::MatchEvent event = link::eventOf(link::MatchEventKind::RuleBroken, one.moment.range.begin,
+                                         robot, one.moment.robot);
+  event.value = static_cast<int>(rule.severity);
+  event.detail = rule.text + " (" + std::string(nameOf(rule.severity)) + ')';
+  return event;
+}
+
+void RuleWatch::listEvents() {
+  std::vector<link::MatchEvent> events;
+  for (const BrokenRule& one : m_broken) events.push_back(eventOf(one));
+  m_shown->events()->replace(link::MatchEventKind::RuleBroken, std::move(events));
 }
 
 QString RuleWatch::sourceName() const {

@@ -7,6 +7,8 @@
 #include <QSettings>
 #include <QStandardPaths>
 #include <QTimer>
+#include <algorithm>
+#include <iterator>
 
 #include <robotlink/scenario/scenario.h>
 #include <robotlink/session/live_recorder.h>
@@ -105,6 +107,15 @@ SessionRecording::SessionRecording(MatchController* controller, LiveController* 
     if (!m_recorder || m_recorder->live != (m_shown->source() == m_live)) return;
     m_recorder->append(event);
   });
+}
+
+const FrameSource* SessionRecording::source() const {
+  if (!m_recorder) return nullptr;
+  return sourceOf(m_recorder->live);
+}
+
+const FrameSource* SessionRecording::sourceOf(bool live) const {
+  return live ? static_cast<const FrameSource*>(m_live) : m_controller;
 }
 
 SessionRecording::~SessionRecording() {
@@ -263,6 +274,7 @@ void SessionRecording::begin(const QString& path,
   keepPath(path);
   m_reported.clear();
   m_timer->start();
+  emit began();
   emit changed();
 }
 
@@ -278,7 +290,7 @@ void SessionRecording::finish(bool matchEnds) {
   recorder.detach();
   m_worker.start([this, recorder, path = m_path, matchEnds] {
     const auto done = recorder.finish();
-    m_toUi.post([this, done, path, matchEnds] {
+    m_toUi.post([this, done, path, matchEnds, isLive = recorder.live] {
       if (!done) {
         emit failed(
             QStringLiteral(
@@ -286,7 +298,7 @@ void SessionRecording::finish(bool matchEnds) {
                 .arg(path, textOf(done.error())));
         return;
       }
-      emit saved(path);
+      emit saved(path, sourceOf(isLive));
       if (!matchEnds) return;
       emit noted(m_recorder && !m_recorder->live
                      ? QStringLiteral("Another match began, so recording continues in %1. The file "
@@ -337,7 +349,12 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
   if (!rows || !rows->range() || !m_shown->kind().hasPresent) return {};
   link::RecentPast past;
   const auto& events = m_shown->events()->events();
-  past.events.assign(events.begin(), events.end());
+  std::ranges::remove_copy_if(events, std::back_inserter(past.events), isMadeByStudio);
+  std::vector<telemetry::DrawnNote> notes;
+  if (m_drawnNotes) notes = m_drawnNotes(m_shown->source());
+  std::erase_if(notes, [begin = rows->range()->end - seconds](const telemetry::DrawnNote& note) {
+    return note.time + note.duration < begin;
+  });
   std::shared_ptr<const link::StateArchive> archive;
   std::shared_ptr<const link::LiveMemory> received;
   std::shared_ptr<const link::LiveHistory> drawn;
@@ -356,7 +373,7 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     archive = m_controller->memory()->archive();
     drawn = m_controller->memory()->drawn();
   }
-  return [past = std::move(past), rows, archive, received, drawn, about,
+  return [past = std::move(past), notes = std::move(notes), rows, archive, received, drawn, about,
           seconds](const QString& path) -> Result<void> {
     link::RecentPast all = past;
     all.rows = rows.get();
@@ -365,7 +382,7 @@ SessionMaker SessionRecording::recentPast(double seconds) const {
     all.drawn = drawn.get();
     const auto done = link::saveRecent(path.toStdString(), seconds, all, about);
     if (!done) return tl::unexpected(done.error());
-    return {};
+    return telemetry::writeDrawnNotes(path.toStdString(), notes);
   };
 }
 
@@ -377,11 +394,11 @@ void SessionRecording::saveLast(double seconds) {
   }
   const QString path = newPath(title() + QStringLiteral(" last %1 s").arg(seconds));
   if (path.isEmpty()) return;
-  m_worker.start([this, path, make = std::move(make)] {
+  m_worker.start([this, path, make = std::move(make), isLive = m_shown->source() == m_live] {
     const auto done = make(path);
-    m_toUi.post([this, done, path] {
+    m_toUi.post([this, done, path, isLive] {
       if (done)
-        emit saved(path);
+        emit saved(path, sourceOf(isLive));
       else
         emit failed(QStringLiteral("Could not save: %1").arg(textOf(done.error())));
     });

@@ -6,22 +6,28 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QElapsedTimer>
+#include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 
 #include <robotlink/report/session_tally.h>
+#include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/table_style.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/shown_moment.h>
 
@@ -58,17 +64,23 @@ class PlaysDock : public QWidget {
     connect(&m_timer, &QTimer::timeout, this, &PlaysDock::count);
     const ShownMoment* shown = m_parts.shown;
     connect(shown, &ShownMoment::sourceChanged, this, [this] {
-      m_model->show({}, {});
+      m_ofShown = {};
+      showPlays();
       countSoon(0);
     });
+    connect(m_parts.compared, &ComparedSessions::changed, this, [this] {
+      showPlays();
+      if (!uncounted().empty()) countSoon(0);
+    });
     connect(shown, &FrameSource::rewound, this, [this] { countSoon(0); });
-    connect(shown, &ShownMoment::timesOfDayChanged, this,
-            [this] { m_model->show(m_model->plays(), m_parts.shown->clock()); });
+    connect(shown, &ShownMoment::timesOfDayChanged, this, [this] { showPlays(); });
     connect(shown, &FrameSource::rowsAppended, this, [this] { countLater(); });
     connect(shown, &FrameSource::frameReceived, this, [this] { countLater(); });
     connect(shown, &ShownMoment::newestChanged, this, [this] { countLater(); });
+    showPlays();
     showEmpty();
   }
+  ~PlaysDock() override { m_isClosing = true; }
 
  protected:
   void showEvent(QShowEvent* event) override {
@@ -89,6 +101,8 @@ class PlaysDock : public QWidget {
         PlaysModel::Time,
         static_cast<int>(std::ceil(digits.horizontalAdvance(QStringLiteral("88:88:88.8")))) +
             scaled(this, 24));
+    m_table->setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
+    m_table->setColumnWidth(PlaysModel::Session, scaled(this, 120));
     m_table->setColumnWidth(PlaysModel::Kind, scaled(this, 90));
     m_table->setColumnWidth(PlaysModel::Robot, scaled(this, 70));
     for (const auto chosen : {&QTableView::clicked, &QTableView::activated}) {
@@ -122,6 +136,15 @@ class PlaysDock : public QWidget {
     copy->setShortcut(QKeySequence::Copy);
     copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
     m_table->setContextMenuPolicy(Qt::ActionsContextMenu);
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this, copy] {
+      const bool isOther = current() && m_model->sessionOf(currentRow()).id != 0;
+      for (QAction* one : m_table->actions()) {
+        if (one == copy) continue;
+        enableUnless(*one, isOther ? QStringLiteral("This play is of a compared session. Open that "
+                                                    "session to use it")
+                                   : QString());
+      }
+    });
   }
 
   QHBoxLayout* makeBar() {
@@ -135,6 +158,14 @@ class PlaysDock : public QWidget {
       const QVariant kind = m_kind->currentData();
       m_filter->setKind(kind.isValid() ? std::optional(static_cast<link::PlayKind>(kind.toInt()))
                                        : std::nullopt);
+      showEmpty();
+    });
+    m_session->setObjectName(QStringLiteral("playSession"));
+    m_session->setAccessibleName(QStringLiteral("Session"));
+    m_session->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+    connect(m_session, &QComboBox::currentIndexChanged, this, [this] {
+      const QVariant id = m_session->currentData();
+      m_filter->setSession(id.isValid() ? std::optional(id.toULongLong()) : std::nullopt);
       showEmpty();
     });
     m_who->setObjectName(QStringLiteral("playRobot"));
@@ -155,6 +186,7 @@ class PlaysDock : public QWidget {
     const int gap = scaled(this, 4);
     row->setContentsMargins(gap, gap, gap, gap);
     row->setSpacing(gap);
+    row->addWidget(m_session);
     row->addWidget(m_kind);
     row->addWidget(m_who);
     row->addWidget(m_words, 1);
@@ -173,8 +205,8 @@ class PlaysDock : public QWidget {
   /// The teams and robots that have plays; the choice stays if it can.
   void fillWho() {
     std::map<TeamColor, std::set<std::string>> teams;
-    for (const link::PlayEvent& play : m_model->plays()) {
-      teams[play.team].insert(play.name);
+    for (const SessionPlays& session : m_model->sessions()) {
+      for (const link::PlayEvent& play : session.plays) teams[play.team].insert(play.name);
     }
     const QString before = m_who->currentText();
     const QSignalBlocker quiet(m_who);
@@ -194,15 +226,18 @@ class PlaysDock : public QWidget {
     filterWho();
   }
 
+  /// Of the model; -1 without a choice.
+  int currentRow() const { return m_filter->mapToSource(m_table->currentIndex()).row(); }
+
   const link::PlayEvent* current() const {
-    const QModelIndex row = m_filter->mapToSource(m_table->currentIndex());
-    return row.isValid() ? &m_model->at(row.row()) : nullptr;
+    const int row = currentRow();
+    return row >= 0 ? &m_model->at(row) : nullptr;
   }
 
   bool goTo() {
-    const link::PlayEvent* play = current();
-    if (play) m_parts.shown->seek(play->time);
-    return play != nullptr;
+    if (current() == nullptr) return false;
+    m_parts.shown->seek(m_model->timeOf(currentRow()));
+    return true;
   }
 
   void select(const link::PlayEvent& play) {
@@ -224,6 +259,37 @@ class PlaysDock : public QWidget {
     countSoon(std::max(minRefresh, static_cast<int>(m_took / maxCountShare)));
   }
 
+  struct Asked {
+    quint64 id;  // of a compared session; 0: the source that is shown
+    std::string path;
+  };
+
+  /// Compared sessions whose plays are unknown. Their files do not change.
+  std::vector<Asked> uncounted() const {
+    std::vector<Asked> all;
+    for (const ComparedSession* session : m_parts.compared->all()) {
+      if (!m_ofCompared.contains(session->id())) {
+        all.push_back({session->id(), session->path().toStdString()});
+      }
+    }
+    return all;
+  }
+
+  static std::vector<link::PlayEvent> playsOf(const std::string& path) {
+    const auto session = telemetry::SessionReader::open(path);
+    const auto range = session ? session->range() : std::nullopt;
+    return range ? link::statisticsOf(*session, *range).plays : std::vector<link::PlayEvent>();
+  }
+
+  struct Counted {
+    std::vector<link::PlayEvent> plays;
+    PlayWords words;
+  };
+  static Counted withWords(std::vector<link::PlayEvent> plays) {
+    PlayWords words = wordsOf(plays);
+    return {std::move(plays), std::move(words)};
+  }
+
   void count() {
     if (m_isCounting) {
       m_isStale = true;
@@ -233,37 +299,87 @@ class PlaysDock : public QWidget {
     const bool isFile = m_parts.shown->source() == m_parts.replay;
     const std::string path = isFile ? m_parts.replay->path().toStdString() : std::string();
     const auto rows = m_parts.shown->series();
-    if (isFile ? path.empty() : rows == nullptr) return showEmpty();
+    const bool isShownThere = isFile ? !path.empty() : rows != nullptr;
+    const std::vector<Asked> others = uncounted();
+    if (!isShownThere && others.empty()) return showEmpty();
     const FramePtr frame = m_parts.shown->frame();
     const sim::FieldSpec field = frame ? frame->settings->field : sim::FieldSpec();
     m_isCounting = true;
     showEmpty();
     const FrameSource* source = m_parts.shown->source();
-    m_worker.start([this, path, rows, field, source] {
+    m_worker.start([this, path, rows, field, source, isShownThere, others] {
       QElapsedTimer timer;
       timer.start();
       std::vector<link::PlayEvent> plays;
-      if (!path.empty()) {
-        const auto session = telemetry::SessionReader::open(path);
-        const auto range = session ? session->range() : std::nullopt;
-        if (range) plays = link::statisticsOf(*session, *range).plays;
-      } else {
+      if (isShownThere && !path.empty()) {
+        plays = playsOf(path);
+      } else if (isShownThere) {
         constexpr double end = std::numeric_limits<double>::max();
         plays = link::statisticsOf(*rows, {-end, end}, field).plays;
       }
-      m_ui.post([this, path, source, plays = std::move(plays), took = timer.elapsed()]() mutable {
+      Counted counted = withWords(std::move(plays));
+      m_ui.post(
+          [this, path, source, counted = std::move(counted), took = timer.elapsed()]() mutable {
+            m_took = static_cast<double>(took);
+            const bool isShown = source == m_parts.shown->source() &&
+                                 (path.empty() || path == m_parts.replay->path().toStdString());
+            if (!isShown) return;
+            m_ofShown = std::move(counted);
+            showPlays();
+          });
+      for (const Asked& other : others) {
+        if (m_isClosing) return;
+        m_ui.post([this, id = other.id, found = withWords(playsOf(other.path))]() mutable {
+          m_ofCompared[id] = std::move(found);
+          showPlays();
+        });
+      }
+      m_ui.post([this] {
         m_isCounting = false;
-        m_took = static_cast<double>(took);
-        const bool isShown = source == m_parts.shown->source() &&
-                             (path.empty() || path == m_parts.replay->path().toStdString());
-        if (isShown) {
-          m_model->show(std::move(plays), m_parts.shown->clock());
-          fillWho();
-        }
-        if (m_isStale) countSoon(0);
+        if (m_isStale || !uncounted().empty()) countSoon(0);
         showEmpty();
       });
     });
+  }
+
+  /// What was counted of the sessions that are open now.
+  void showPlays() {
+    std::erase_if(m_ofCompared,
+                  [this](const auto& one) { return !m_parts.compared->find(one.first); });
+    std::vector<SessionPlays> all(1);
+    const bool isFile = m_parts.shown->source() == m_parts.replay;
+    all[0].name = isFile ? QFileInfo(m_parts.replay->path()).completeBaseName()
+                         : QString::fromUtf8(m_parts.shown->kind().name);
+    all[0].plays = m_ofShown.plays;
+    all[0].words = m_ofShown.words;
+    for (const ComparedSession* session : m_parts.compared->all()) {
+      const auto found = m_ofCompared.find(session->id());
+      const Counted none;
+      const Counted& counted = found != m_ofCompared.end() ? found->second : none;
+      all.push_back({session->id(), session->number(),
+                     sessionMark(session->number()) + QLatin1Char(' ') + session->name(),
+                     session->offset(), counted.plays, counted.words});
+    }
+    m_model->show(std::move(all), m_parts.shown->clock());
+    fillSessions();
+    fillWho();
+  }
+
+  /// The choice stays if it can.
+  void fillSessions() {
+    const std::vector<SessionPlays>& sessions = m_model->sessions();
+    const QVariant before = m_session->currentData();
+    {
+      const QSignalBlocker quiet(m_session);
+      m_session->clear();
+      m_session->addItem(QStringLiteral("All sessions"));
+      for (const SessionPlays& session : sessions) m_session->addItem(session.name, session.id);
+      m_session->setCurrentIndex(before.isValid() ? std::max(0, m_session->findData(before)) : 0);
+    }
+    const QVariant now = m_session->currentData();
+    m_filter->setSession(now.isValid() ? std::optional(now.toULongLong()) : std::nullopt);
+    m_session->setVisible(sessions.size() > 1);
+    m_table->setColumnHidden(PlaysModel::Session, sessions.size() < 2);
   }
 
   void showEmpty() {
@@ -285,11 +401,15 @@ class PlaysDock : public QWidget {
   PlaysFilter* m_filter;
   QTableView* m_table;
   QLabel* m_empty;
+  QComboBox* m_session = new QComboBox(this);
   QComboBox* m_kind = new QComboBox(this);
   QComboBox* m_who = new QComboBox(this);
   QLineEdit* m_words = new QLineEdit(this);
   QTimer m_timer;
   bool m_isStale = true, m_isCounting = false;
+  Counted m_ofShown;
+  std::map<quint64, Counted> m_ofCompared;  // by the session's id
+  std::atomic<bool> m_isClosing = false;
   double m_took = 0.0;  // ms, the last count
   UiQueue m_ui;
   Workers m_worker;  // last: waits for its work before the rest goes

@@ -2,49 +2,79 @@
 #include "plays_model.h"
 
 #include <ui/base/robot_text.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 
 namespace pitchboard::ui {
 
-void PlaysModel::show(std::vector<link::PlayEvent> plays, const std::optional<QDateTime>& clock) {
-  if (plays == m_plays && clock == m_clock) return;  // keeps the selection
+PlayWords wordsOf(const std::vector<link::PlayEvent>& plays) {
+  PlayWords words;
+  words.reserve(plays.size());
+  for (const link::PlayEvent& play : plays) {
+    words.push_back(
+        {capitalised(labelOf(play.kind)),
+         play.name.empty() ? capitalised(info(play.team).name) : QString::fromStdString(play.name),
+         QString::fromStdString(sentenceOf(play))});
+  }
+  return words;
+}
+
+void PlaysModel::show(std::vector<SessionPlays> sessions, const std::optional<QDateTime>& clock) {
+  for (SessionPlays& one : sessions) {
+    if (one.words.size() != one.plays.size()) one.words = wordsOf(one.plays);
+  }
+  if (sessions == m_sessions && clock == m_clock) return;  // keeps the selection
   beginResetModel();
-  m_plays = std::move(plays);
+  m_sessions = std::move(sessions);
   m_clock = clock;
+  m_rows.clear();
+  for (std::size_t session = 0; session < m_sessions.size(); ++session) {
+    for (std::size_t i = 0; i < m_sessions[session].plays.size(); ++i)
+      m_rows.push_back({session, i});
+  }
   endResetModel();
 }
 
+const SessionPlays& PlaysModel::sessionOf(int row) const {
+  return m_sessions[m_rows[static_cast<std::size_t>(row)].first];
+}
+
+const link::PlayEvent& PlaysModel::at(int row) const {
+  return sessionOf(row).plays[m_rows[static_cast<std::size_t>(row)].second];
+}
+
 int PlaysModel::rowCount(const QModelIndex& parent) const {
-  return parent.isValid() ? 0 : static_cast<int>(m_plays.size());
+  return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
 }
 
 int PlaysModel::columnCount(const QModelIndex& parent) const {
   return parent.isValid() ? 0 : columns;
 }
 
-QString PlaysModel::text(const link::PlayEvent& play, int column) const {
+QString PlaysModel::textOf(int row, int column) const {
   switch (column) {
     case Time:
-      return momentText(play.time, 1, m_clock);
-    case Kind:
-      return capitalised(labelOf(play.kind));
-    case Robot:
-      return play.name.empty() ? capitalised(info(play.team).name)
-                               : QString::fromStdString(play.name);
-    case What:
-      return QString::fromStdString(sentenceOf(play));
-    default:
-      return {};
+      return momentText(timeOf(row), 1, m_clock);
+    case Session:
+      return sessionOf(row).name;
+    default: {
+      const auto play = m_rows[static_cast<std::size_t>(row)].second;
+      return sessionOf(row).words[play][static_cast<std::size_t>(column - Kind)];
+    }
   }
 }
 
 QVariant PlaysModel::data(const QModelIndex& index, int role) const {
   if (!index.isValid() || index.row() >= rowCount()) return {};
-  const link::PlayEvent& play = at(index.row());
-  if (role == Qt::DisplayRole) return text(play, index.column());
+  const int row = index.row();
+  const link::PlayEvent& play = at(row);
+  if (role == Qt::DisplayRole) return textOf(row, index.column());
   if (role == sortRole) {
-    return index.column() == Time ? QVariant(play.time) : QVariant(text(play, index.column()));
+    return index.column() == Time ? QVariant(timeOf(row)) : QVariant(textOf(row, index.column()));
+  }
+  if (role == Qt::DecorationRole && index.column() == Session && sessionOf(row).number > 0) {
+    return sessionColor(sessionOf(row).number);
   }
   if (role == Qt::ToolTipRole && play.sigma > 0.0) {
     return QStringLiteral("Robots report places here to about ±%1 m")
@@ -56,17 +86,26 @@ QVariant PlaysModel::data(const QModelIndex& index, int role) const {
 
 QVariant PlaysModel::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  const QString names[] = {QStringLiteral("Time"), QStringLiteral("Kind"), QStringLiteral("Robot"),
-                           QStringLiteral("What")};
+  const QString names[] = {QStringLiteral("Time"), QStringLiteral("Session"),
+                           QStringLiteral("Kind"), QStringLiteral("Robot"), QStringLiteral("What")};
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 
 bool PlaysFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
-  const link::PlayEvent& play = static_cast<const PlaysModel*>(sourceModel())->at(row);
+  const auto* model = static_cast<const PlaysModel*>(sourceModel());
+  const link::PlayEvent& play = model->at(row);
+  if (m_session && model->sessionOf(row).id != *m_session) return false;
   if (m_kind && play.kind != *m_kind) return false;
   if (m_team && play.team != *m_team) return false;
   if (!m_robot.empty() && play.name != m_robot && play.otherName != m_robot) return false;
   return TextFilter::filterAcceptsRow(row, parent);
+}
+
+// Without a QVariant for each comparison.
+bool PlaysFilter::lessThan(const QModelIndex& a, const QModelIndex& b) const {
+  const auto& model = *static_cast<const PlaysModel*>(sourceModel());
+  if (a.column() == PlaysModel::Time) return model.timeOf(a.row()) < model.timeOf(b.row());
+  return model.textOf(a.row(), a.column()) < model.textOf(b.row(), b.column());
 }
 
 }  // namespace pitchboard::ui

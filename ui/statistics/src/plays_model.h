@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// Plays of a match as a table, and which of them are shown. UI thread only.
+// Plays of one or several sessions as a table, and which of them are shown. UI thread only.
 
 #include <QAbstractTableModel>
 #include <QDateTime>
+#include <QSignalBlocker>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,17 +16,38 @@
 
 namespace pitchboard::ui {
 
+/// Kind, robot and what happened, of each play.
+using PlayWords = std::vector<std::array<QString, 3>>;
+/// Makes them; any thread. Sorting and filtering ask for all of them.
+PlayWords wordsOf(const std::vector<link::PlayEvent>& plays);
+
+/// The plays of a session.
+struct SessionPlays {
+  quint64 id = 0;  ///< of a compared session; 0: of the source that is shown
+  int number = 0;  ///< of its colour and mark (session_mark.h)
+  QString name = {};
+  double offset = 0.0;  ///< s, time of its second 0 in the source that is shown
+  std::vector<link::PlayEvent> plays = {};
+  PlayWords words = {};
+  bool operator==(const SessionPlays&) const = default;
+};
+
 class PlaysModel : public QAbstractTableModel {
   Q_OBJECT
  public:
-  enum Column { Time, Kind, Robot, What, columns };
+  enum Column { Time, Session, Kind, Robot, What, columns };
   static constexpr int sortRole = Qt::UserRole;  ///< s, or the text
   using QAbstractTableModel::QAbstractTableModel;
 
-  /// `clock`: the time of day at second 0; empty: times are shown in seconds.
-  void show(std::vector<link::PlayEvent> plays, const std::optional<QDateTime>& clock);
-  const link::PlayEvent& at(int row) const { return m_plays[static_cast<std::size_t>(row)]; }
-  const std::vector<link::PlayEvent>& plays() const { return m_plays; }
+  /// `clock`: the time of day at second 0; empty: times are shown in seconds. Words that are
+  /// missing are made.
+  void show(std::vector<SessionPlays> sessions, const std::optional<QDateTime>& clock);
+  const link::PlayEvent& at(int row) const;
+  const SessionPlays& sessionOf(int row) const;
+  /// The time in the source that is shown, s.
+  double timeOf(int row) const { return at(row).time + sessionOf(row).offset; }
+  QString textOf(int row, int column) const;
+  const std::vector<SessionPlays>& sessions() const { return m_sessions; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
@@ -32,9 +55,8 @@ class PlaysModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
-  QString text(const link::PlayEvent& play, int column) const;
-
-  std::vector<link::PlayEvent> m_plays;
+  std::vector<SessionPlays> m_sessions;
+  std::vector<std::pair<std::size_t, std::size_t>> m_rows;  // session, and play of it
   std::optional<QDateTime> m_clock;
 };
 
@@ -46,22 +68,46 @@ class PlaysFilter : public TextFilter {
   /// Empty: all.
   void setKind(std::optional<link::PlayKind> kind) {
     m_kind = kind;
-    invalidateFilter();
+    filterAgain();
+  }
+  void setFilterText(const QString& text) {
+    atOnce([&] { TextFilter::setFilterText(text); });
   }
   /// Of this robot, also as the other one, or of this team; empty: all.
   void setWho(std::string robot, std::optional<TeamColor> team) {
     m_robot = std::move(robot);
     m_team = team;
-    invalidateFilter();
+    filterAgain();
+  }
+  /// Of the session with this id; empty: of all.
+  void setSession(std::optional<quint64> id) {
+    m_session = id;
+    filterAgain();
   }
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
+  bool lessThan(const QModelIndex& a, const QModelIndex& b) const override;
 
  private:
+  void filterAgain() {
+    atOnce([this] { invalidateFilter(); });
+  }
+  /// Views are told once: thousands of scattered rows that go one by one would block the window.
+  template <class Change>
+  void atOnce(const Change& change) {
+    beginResetModel();
+    {
+      const QSignalBlocker quiet(this);
+      change();
+    }
+    endResetModel();
+  }
+
   std::optional<link::PlayKind> m_kind;
   std::string m_robot;
   std::optional<TeamColor> m_team;
+  std::optional<quint64> m_session;
 };
 
 }  // namespace pitchboard::ui

@@ -5,6 +5,9 @@
 #include <QMouseEvent>
 
 #include <telemetry/series/group_order.h>
+#include <ui/base/session_mark.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/shown_moment.h>
 
@@ -34,11 +37,12 @@ QString lastingNameOf(const telemetry::GroupInfo& group) {
 
 }  // namespace
 
-RobotsButton::RobotsButton(ShownMoment* shown, RobotSelection* selection, QWidget* parent)
-    : QToolButton(parent), m_shown(shown), m_selection(selection) {
+RobotsButton::RobotsButton(ShownMoment* shown, RobotSelection* selection,
+                           const ComparedSessions* compared, QWidget* parent)
+    : QToolButton(parent), m_shown(shown), m_selection(selection), m_compared(compared) {
   setObjectName(QStringLiteral("statisticsRobots"));
   setAccessibleName(QStringLiteral("Robots"));
-  setToolTip(QStringLiteral("Robots whose variables are described"));
+  setToolTip(QStringLiteral("Robots and sessions whose variables are described"));
   setPopupMode(QToolButton::InstantPopup);
   setToolButtonStyle(Qt::ToolButtonTextOnly);
   auto* menu = new TickMenu(this);
@@ -49,6 +53,12 @@ RobotsButton::RobotsButton(ShownMoment* shown, RobotSelection* selection, QWidge
     if (m_followsSelection) emit changed();
   });
   connect(shown, &ShownMoment::sourceChanged, this, &RobotsButton::label);
+  connect(compared, &ComparedSessions::changed, this, [this] {
+    std::erase_if(m_leftOut, [this](quint64 id) {
+      return m_compared->isEmpty() || (id != shownId && m_compared->find(id) == nullptr);
+    });
+    label();
+  });
   choose(false, {});
 }
 
@@ -105,6 +115,31 @@ void RobotsButton::fill() {
         });
     robot->setData(id);  // the menu stays open
   }
+  if (m_compared->isEmpty()) return;
+  menu()->addSection(QStringLiteral("Sessions"));
+  addSession(QStringLiteral("The one shown"), shownId);
+  for (const ComparedSession* session : m_compared->all()) {
+    addSession(sessionMark(session->number()) + QLatin1Char(' ') + session->name(), session->id());
+  }
+}
+
+void RobotsButton::addSession(const QString& text, quint64 id) {
+  QAction* session = menu()->addAction(text);
+  session->setCheckable(true);
+  session->setChecked(!m_leftOut.contains(id));
+  session->setData(id);  // the menu stays open
+  connect(session, &QAction::triggered, this, [this, id](bool on) {
+    if (on)
+      m_leftOut.erase(id);
+    else
+      m_leftOut.insert(id);
+    label();
+    emit changed();
+  });
+}
+
+bool RobotsButton::takes(const ComparedSession& session) const {
+  return !m_leftOut.contains(session.id());
 }
 
 void RobotsButton::choose(bool followsSelection, const QStringList& groups) {
@@ -112,7 +147,8 @@ void RobotsButton::choose(bool followsSelection, const QStringList& groups) {
   m_groups = groups;
   const QList<QAction*> actions = menu()->actions();
   for (QAction* action : actions) {
-    if (action->data().isValid()) action->setChecked(groups.contains(action->data().toString()));
+    if (action->data().typeId() != QMetaType::QString) continue;
+    action->setChecked(groups.contains(action->data().toString()));
   }
   if (actions.size() > 1) {
     actions[0]->setChecked(!followsSelection && groups.isEmpty());
@@ -126,10 +162,15 @@ void RobotsButton::label() {
   constexpr qsizetype maxNamed = 3;
   QStringList names;
   for (const std::string& name : robots()) names << QString::fromStdString(name);
-  setText(m_followsSelection         ? QStringLiteral("Selected robots")
-          : names.isEmpty()          ? QStringLiteral("All robots")
-          : names.size() <= maxNamed ? names.join(QStringLiteral(", "))
-                                     : QStringLiteral("%1 robots").arg(names.size()));
+  QString text = m_followsSelection         ? QStringLiteral("Selected robots")
+                 : names.isEmpty()          ? QStringLiteral("All robots")
+                 : names.size() <= maxNamed ? names.join(QStringLiteral(", "))
+                                            : QStringLiteral("%1 robots").arg(names.size());
+  if (!m_leftOut.empty()) {
+    const std::size_t all = 1 + m_compared->all().size();
+    text += QStringLiteral(" · %1 of %2 sessions").arg(all - m_leftOut.size()).arg(all);
+  }
+  setText(text);
 }
 
 }  // namespace pitchboard::ui

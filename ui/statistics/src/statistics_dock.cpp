@@ -28,6 +28,7 @@
 #include <ui/base/table_style.h>
 #include <ui/base/variable_names.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/shown_moment.h>
@@ -72,16 +73,6 @@ QStringList namesOf(const telemetry::SeriesStore* rows) {
   return all + single;
 }
 
-/// The first few, so that there is room for numbers.
-QString problemsText(const QStringList& problems) {
-  constexpr qsizetype most = 3;
-  QStringList lines = problems.mid(0, most);
-  if (problems.size() > most) {
-    lines << QStringLiteral("%1 more like these").arg(problems.size() - most);
-  }
-  return lines.join(QLatin1Char('\n'));
-}
-
 class StatisticsDock : public QWidget {
  public:
   StatisticsDock(const StatisticsDockParts& parts, QWidget* parent)
@@ -89,7 +80,7 @@ class StatisticsDock : public QWidget {
         m_parts(parts),
         m_work(new StretchWork(this)),
         m_add(new QLineEdit(this)),
-        m_robots(new RobotsButton(parts.shown, parts.selection, this)),
+        m_robots(new RobotsButton(parts.shown, parts.selection, parts.compared, this)),
         m_against(new QLineEdit(this)),
         m_delay(new NumberBox(this)),
         m_save(new QPushButton(QStringLiteral("Save CSV…"), this)),
@@ -266,7 +257,7 @@ class StatisticsDock : public QWidget {
     connect(shown, &FrameSource::rowsAppended, this, &StatisticsDock::takeRows);
     connect(shown, &FrameSource::frameReceived, this, [this] { takeRows(); });
     connect(shown, &ShownMoment::newestChanged, this, &StatisticsDock::takeRows);
-    connect(m_parts.compared, &ComparedSession::changed, this, [this] { describeSoon(); });
+    connect(m_parts.compared, &ComparedSessions::changed, this, [this] { describeSoon(); });
     connect(m_robots, &RobotsButton::changed, this, [this] { describeSoon(); });
     connect(m_stretch, &StretchBar::changed, this, [this] {
       keep(conditionKey, m_stretch->condition());
@@ -465,13 +456,15 @@ class StatisticsDock : public QWidget {
       source.rows = shown.series();
       if (order.between) source.events = m_stretch->events();
     }
-    if (!source.path.empty() || source.rows) order.sources.push_back(std::move(source));
-    const ComparedSession& compared = *m_parts.compared;
-    if (compared.isOn()) {
+    const bool isThere = !source.path.empty() || source.rows;
+    if (isThere && m_robots->takesShown()) order.sources.push_back(std::move(source));
+    for (const ComparedSession* compared : m_parts.compared->all()) {
+      if (!m_robots->takes(*compared)) continue;
       StretchSource other;
-      other.path = compared.path().toStdString();
+      other.path = compared->path().toStdString();
       other.name = other.path;
-      other.offset = compared.offset();
+      other.offset = compared->offset();
+      other.number = compared->number();
       order.sources.push_back(std::move(other));
     }
     return order;
@@ -483,7 +476,7 @@ class StatisticsDock : public QWidget {
     const bool isFirst = m_table->isEmpty();
     m_table->show(result, result ? m_texts : QStringList(), m_parts.shown->clock());
     if (isFirst) fitDetails();
-    const QString problems = result ? problemsText(result->problems) : QString();
+    const QString problems = result ? shortListOf(result->problems) : QString();
     if (std::exchange(m_said, problems) == problems) return;
     if (problems.isEmpty()) {
       m_message->clear();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <ui/base/robot_text.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
 
@@ -113,7 +114,8 @@ QString textOf(const StatisticsRow& row, int column) {
   const StretchLine& line = row.line;
   switch (column) {
     case StatisticsModel::Session:
-      return sessionName(line.session);
+      return row.number > 0 ? sessionMark(row.number) + QLatin1Char(' ') + sessionName(line.session)
+                            : sessionName(line.session);
     case StatisticsModel::Robot:
       return QString::fromStdString(line.robot);
     case StatisticsModel::Variable:
@@ -143,7 +145,7 @@ QString textOf(const StatisticsRow& row, int column) {
 }
 
 bool isSameRow(const StatisticsRow& a, const StatisticsRow& b) {
-  return a.line.session == b.line.session && a.line.robot == b.line.robot &&
+  return a.number == b.number && a.line.session == b.line.session && a.line.robot == b.line.robot &&
          a.line.variable == b.line.variable && a.isMissing == b.isMissing;
 }
 
@@ -154,7 +156,7 @@ std::vector<StatisticsRow> rowsOf(const StretchResult* result, const QStringList
     if (line.state && !rows.empty()) {
       rows.back().states.push_back(line);
     } else {
-      rows.push_back({line, {}, result->offsets[i], false});
+      rows.push_back({line, {}, result->offsets[i], result->numbers[i], false});
     }
   }
   for (const QString& text : texts) {
@@ -162,7 +164,7 @@ std::vector<StatisticsRow> rowsOf(const StretchResult* result, const QStringList
     const bool isThere = std::ranges::any_of(
         rows, [&](const StatisticsRow& row) { return row.line.variable == name; });
     if (isThere) continue;
-    StatisticsRow row{{}, {}, 0.0, true};
+    StatisticsRow row{{}, {}, 0.0, 0, true};
     row.line.variable = name;
     row.line.summary = telemetry::summaryOf({}, {}, true);
     rows.push_back(std::move(row));
@@ -260,6 +262,9 @@ QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
       return QVariant((facts.number != nullptr ? Qt::AlignRight : Qt::AlignLeft) |
                       Qt::AlignVCenter);
+    case Qt::DecorationRole:
+      if (index.column() != Session || row.number == 0) return {};
+      return sessionColor(row.number);
     case Qt::ForegroundRole:
       if (row.isMissing) return theme().errorText;
       if (moment) return theme().accentLine;

@@ -21,6 +21,7 @@ struct StatisticsRow {
   telemetry::StretchLine line;
   std::vector<telemetry::StretchLine> states;  ///< of a code
   double offset = 0.0;                         ///< s, of its session
+  int number = 0;                              ///< of its session, as in StretchSource
   bool isMissing = false;  ///< nothing is known about this variable; only its name is
 };
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include <ui/base/table_style.h>
+#include <ui/base/theme.h>
 
 namespace pitchboard::ui {
 namespace {
@@ -17,7 +18,8 @@ constexpr int widestText = 260;  // px of the design
 const QString columnsKey = QStringLiteral("statistics/columns");
 
 std::string keyOfRow(const StatisticsRow& row) {
-  return row.line.session + '\n' + row.line.robot + '\n' + row.line.variable;
+  return std::to_string(row.number) + '\n' + row.line.session + '\n' + row.line.robot + '\n' +
+         row.line.variable;
 }
 
 }  // namespace
@@ -35,6 +37,7 @@ StatisticsTable::StatisticsTable(QSettings* settings, QWidget* parent)
   setSelectionMode(QAbstractItemView::ExtendedSelection);
   setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
   styleTable(this);
+  setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
   setSortingEnabled(true);
   sortByColumn(-1, Qt::AscendingOrder);
   QHeaderView* header = horizontalHeader();

@@ -134,6 +134,7 @@ StretchResult StretchWork::describe(const StretchOrder& order, const Flag& cance
       line.session = source.path.empty() ? source.name : source.path;
       out.lines.push_back(std::move(line));
       out.offsets.push_back(source.offset);
+      out.numbers.push_back(source.number);
     }
   }
   return out;

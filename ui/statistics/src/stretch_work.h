@@ -26,6 +26,7 @@ struct StretchSource {
   std::shared_ptr<const telemetry::SeriesStore> rows = nullptr;
   std::vector<telemetry::SessionEvent> events = {};  ///< of rows in memory
   double offset = 0.0;  ///< s, time of its second 0 in the source that is shown
+  int number = 0;       ///< of a compared session (session_mark.h); 0: the source that is shown
 };
 
 struct StretchOrder {
@@ -40,6 +41,7 @@ struct StretchOrder {
 struct StretchResult {
   std::vector<telemetry::StretchLine> lines;  ///< times are those of their session
   std::vector<double> offsets;                ///< of each line's session, s
+  std::vector<int> numbers;                   ///< of each line's session, as in StretchSource
   QStringList problems;
   bool isCompared = false;   ///< with another curve
   std::size_t sessions = 0;  ///< how many were described

@@ -106,7 +106,8 @@ constexpr int noteImportance = 1'000'000;
 
 // Somebody wrote a note to read it again: no event takes its place.
 int importanceOf(const link::MatchEvent& event) {
-  const bool isNote = event.kind == link::MatchEventKind::Bookmark && !event.detail.empty();
+  const bool isNote = event.kind == link::MatchEventKind::Note ||
+                      (event.kind == link::MatchEventKind::Bookmark && !event.detail.empty());
   return isNote ? noteImportance : link::info(event.kind).importance;
 }
 

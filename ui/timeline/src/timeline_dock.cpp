@@ -5,10 +5,12 @@
 #include <QMenu>
 #include <QToolButton>
 
-#include <ui/base/action_reason.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/shown_moment.h>
+#include <ui/timeline/compared_menu.h>
 #include <ui/timeline/timeline_actions.h>
 
 #include "timeline_strip.h"
@@ -43,50 +45,81 @@ class TimelineDock : public QWidget {
     connect(context.timelineActions, &TimelineActions::bookmarkAdded, m_strip,
             &TimelineStrip::editNote);
     connect(m_strip, &TimelineStrip::menuRequested, this,
-            [this, context](QPoint at, const link::MatchEvent* event, bool compared) {
+            [this, context](QPoint at, const link::MatchEvent* event, int session) {
               QMenu menu(this);
               menu.setObjectName(QStringLiteral("timelineMenu"));
-              addAlignment(&menu, context.compared, event, compared);
+              menu.setToolTipsVisible(true);
+              if (context.compared != nullptr)
+                addComparison(&menu, context.compared, event, session);
               context.timelineActions->fill(&menu);
               menu.exec(at);
             });
     m_strip->setFuture(context.future);
     m_strip->setRules(context.rules);
-    if (context.compared != nullptr) {
-      connect(m_strip, &TimelineStrip::comparedMoved, context.compared,
-              &ComparedSession::setOffset);
-      connect(context.compared, &ComparedSession::changed, this,
-              [this, compared = context.compared] {
-                m_strip->setCompared(compared->events(), compared->offset(), compared->caption());
-              });
-    }
+    if (context.compared != nullptr) follow(context.compared);
     showNow();
   }
 
  private:
-  static void addAlignment(QMenu* menu, ComparedSession* session, const link::MatchEvent* event,
-                           bool compared) {
-    if (!session->isOn()) return;
-    if (event != nullptr) {
+  void follow(ComparedSessions* compared) {
+    connect(compared, &ComparedSessions::changed, this, [this, compared] {
+      std::vector<ComparedRow> rows;
+      for (const ComparedSession* session : compared->all()) {
+        rows.push_back({session->events(), session->offset(), session->caption(), session->number(),
+                        session->isOnField(), session->available()});
+      }
+      m_strip->setCompared(std::move(rows));
+    });
+    const auto at = [compared](int row) { return compared->all()[static_cast<std::size_t>(row)]; };
+    connect(m_strip, &TimelineStrip::comparedMoved, compared,
+            [at](int row, double offset) { at(row)->setOffset(offset); });
+    connect(m_strip, &TimelineStrip::comparedToggled, compared,
+            [at](int row) { at(row)->setOnField(!at(row)->isOnField()); });
+    connect(m_strip, &TimelineStrip::filesDropped, compared, &ComparedSessions::open);
+  }
+
+  /// Of the event and the row that were clicked.
+  static void addComparison(QMenu* menu, ComparedSessions* compared, const link::MatchEvent* event,
+                            int row) {
+    const std::vector<ComparedSession*>& all = compared->all();
+    if (all.empty()) return;
+    if (row >= 0) {
+      ComparedSession* session = all[static_cast<std::size_t>(row)];
+      if (event != nullptr) {
+        const double time = event->time;
+        nameAlignment(menu->addAction(alignText(*event), session,
+                                      [session, time] { session->alignThere(time); }));
+      }
+      fillComparedMenu(menu, compared, session);
+    } else if (event != nullptr && all.size() == 1) {
       const double time = event->time;
-      QAction* align = menu->addAction(QStringLiteral("&Align at this event: %1")
-                                           .arg(QString::fromStdString(sentenceOf(*event))),
-                                       session, [session, time, compared] {
-                                         if (compared)
-                                           session->alignThere(time);
-                                         else
-                                           session->alignHere(time);
-                                       });
-      align->setObjectName(QStringLiteral("alignHere"));
+      nameAlignment(menu->addAction(alignText(*event), all.front(),
+                                    [session = all.front(), time] { session->alignHere(time); }));
+    } else if (event != nullptr) {
+      addChoice(menu->addMenu(alignText(*event)), all, event->time);
     }
-    QAction* byTime =
-        menu->addAction(QStringLiteral("Align by &time"), session, &ComparedSession::alignByTime);
-    enableUnless(*byTime, session->isAlignedByTime()
-                              ? QStringLiteral("The sessions are aligned by time")
-                              : QString());
-    menu->addAction(QStringLiteral("St&op comparing"), session, &ComparedSession::stop);
     menu->addSeparator();
   }
+
+  /// Which of the sessions is to be aligned at this time of the source that is shown.
+  static void addChoice(QMenu* menu, const std::vector<ComparedSession*>& all, double time) {
+    nameAlignment(menu->addAction(QStringLiteral("&All sessions"), [all, time] {
+      for (ComparedSession* session : all) session->alignHere(time);
+    }));
+    for (ComparedSession* session : all) {
+      QAction* one =
+          menu->addAction(sessionMark(session->number()) + QLatin1Char(' ') + session->name(),
+                          session, [session, time] { session->alignHere(time); });
+      one->setObjectName(QStringLiteral("alignHere.%1").arg(session->number()));
+    }
+  }
+
+  static QString alignText(const link::MatchEvent& event) {
+    return QStringLiteral("&Align at this event: %1")
+        .arg(QString::fromStdString(sentenceOf(event)));
+  }
+  static void nameAlignment(QAction* action) { action->setObjectName(QStringLiteral("alignHere")); }
+
   void showNow() {
     m_now->setVisible(m_shown->kind().hasPresent);
     m_now->setChecked(m_shown->isLookingBack());

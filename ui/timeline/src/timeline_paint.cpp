@@ -42,6 +42,7 @@ void TimelineStrip::paintEvent(QPaintEvent*) {
   paintWindow(painter);
   paintAxis(painter);
   paintMarks(painter);
+  paintCompared(painter);
   paintMoment(painter);
   if (hasFocus()) {
     painter.setPen(theme().accentLine);
@@ -193,49 +194,34 @@ void TimelineStrip::paintAxis(QPainter& painter) const {
   }
 }
 
-void TimelineStrip::paintMarks(QPainter& painter) {
-  const QFont small = themeFont(TypeRole::Small);
-  painter.setFont(small);
+void TimelineStrip::paintRow(QPainter& painter, const std::vector<EventMark>& marks,
+                             const std::deque<link::MatchEvent>& events, double centre,
+                             double bottom, double strength) const {
+  painter.setFont(themeFont(TypeRole::Small));
   const double size = scaled(this, markSize);
   const double gap = scaled(this, 9);
-  const auto row = [&](const std::vector<EventMark>& all,
-                       const std::deque<link::MatchEvent>& events, double centre, double bottom,
-                       double strength) {
-    painter.setOpacity(strength);
-    for (const EventMark& mark : all) {
-      const link::EventShape shape =
-          link::info(events[static_cast<std::size_t>(mark.row)].kind).shape;
-      stem(painter, mark.x, centre + size * 0.5, bottom, markColor(shape), 1.4);
-      drawMark(painter, shape, {mark.x, centre}, size);
-      if (mark.label.isEmpty()) continue;
-      painter.setPen(theme().secondaryText);
-      const QRectF line(mark.x, centre - size, width(), 2 * size);
-      if (mark.labelLeft) {
-        drawTextLine(painter, line.translated(-gap - width(), 0), Qt::AlignRight | Qt::AlignVCenter,
-                     mark.label);
-      } else {
-        drawTextLine(painter, line.translated(gap, 0), Qt::AlignLeft | Qt::AlignVCenter,
-                     mark.label);
-      }
+  painter.setOpacity(strength);
+  for (const EventMark& mark : marks) {
+    const link::EventShape shape =
+        link::info(events[static_cast<std::size_t>(mark.row)].kind).shape;
+    stem(painter, mark.x, centre + size * 0.5, bottom, markColor(shape), 1.4);
+    drawMark(painter, shape, {mark.x, centre}, size);
+    if (mark.label.isEmpty()) continue;
+    painter.setPen(theme().secondaryText);
+    const QRectF line(mark.x, centre - size, width(), 2 * size);
+    if (mark.labelLeft) {
+      drawTextLine(painter, line.translated(-gap - width(), 0), Qt::AlignRight | Qt::AlignVCenter,
+                   mark.label);
+    } else {
+      drawTextLine(painter, line.translated(gap, 0), Qt::AlignLeft | Qt::AlignVCenter, mark.label);
     }
-    painter.setOpacity(1.0);
-  };
-  const QRect band = bandRect();
-  const double stemEnd = band.top() + 1;
-  row(marks(), m_shown->events()->events(), scaled(this, 13),
-      m_compared != nullptr ? marksRect().bottom() : stemEnd, 1.0);
-  if (m_compared == nullptr) return;
-  const QRect place = comparedRect();
-  painter.setPen(QPen(theme().innerLine, 1));
-  painter.drawLine(place.topLeft(), place.topRight());
-  row(comparedMarks(), m_compared->events(), place.center().y(), stemEnd, 0.75);
-  const QFontMetrics metrics(small);
-  const QString caption = metrics.elidedText(m_comparedCaption, Qt::ElideMiddle, place.width() / 3);
-  QRect room(0, 0, metrics.horizontalAdvance(caption) + scaled(this, 12), place.height() - 2);
-  room.moveTopRight(place.topRight() + QPoint(0, 1));
-  painter.fillRect(room, theme().window);
-  painter.setPen(theme().secondaryText);
-  painter.drawText(room, Qt::AlignRight | Qt::AlignVCenter, caption);
+  }
+  painter.setOpacity(1.0);
+}
+
+void TimelineStrip::paintMarks(QPainter& painter) {
+  const double bottom = m_compared.empty() ? bandRect().top() + 1 : marksRect().bottom();
+  paintRow(painter, marks(), m_shown->events()->events(), scaled(this, 13), bottom, 1.0);
 }
 
 void TimelineStrip::paintMoment(QPainter& painter) const {

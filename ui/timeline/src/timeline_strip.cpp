@@ -2,9 +2,11 @@
 #include "timeline_strip.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QContextMenuEvent>
 #include <QHelpEvent>
 #include <QMouseEvent>
+#include <QScrollBar>
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
@@ -35,8 +37,16 @@ int rulesHeightOf(const QWidget* strip, const RuleWatch* rules) {
 }  // namespace
 
 TimelineStrip::TimelineStrip(ShownMoment* shown, LinkedTime* plots, QWidget* parent)
-    : QWidget(parent), m_shown(shown), m_plots(plots) {
+    : QWidget(parent),
+      m_shown(shown),
+      m_plots(plots),
+      m_scroll(new QScrollBar(Qt::Vertical, this)) {
   setObjectName(QStringLiteral("timelineStrip"));
+  setAcceptDrops(true);
+  connect(m_scroll, &QScrollBar::valueChanged, this, qOverload<>(&QWidget::update));
+  m_scroll->setObjectName(QStringLiteral("comparedScroll"));
+  m_scroll->setAccessibleName(QStringLiteral("Compared sessions"));
+  m_scroll->hide();
   setFocusPolicy(Qt::StrongFocus);
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
@@ -58,6 +68,7 @@ TimelineStrip::TimelineStrip(ShownMoment* shown, LinkedTime* plots, QWidget* par
   connect(shown, &ShownMoment::selectionChanged, this, qOverload<>(&QWidget::update));
   connect(shown, &ShownMoment::eventFilterChanged, this, [this] {
     m_marksOf = nullptr;
+    for (LaidOut& row : m_comparedMarks) row = {};
     update();
   });
   if (plots != nullptr) {
@@ -89,19 +100,6 @@ void TimelineStrip::updateCalmly() {
     m_calm->want();
 }
 
-void TimelineStrip::setCompared(const EventList* events, double offset, const QString& caption) {
-  if (m_compared != nullptr) m_compared->disconnect(this);
-  m_compared = events;
-  m_comparedOffset = offset;
-  m_comparedCaption = caption;
-  if (events != nullptr) {
-    connect(events, &EventList::changed, this, qOverload<>(&QWidget::update));
-    connect(events, &QObject::destroyed, this, [this] { setCompared(nullptr, 0.0, {}); });
-  }
-  updateGeometry();
-  update();
-}
-
 void TimelineStrip::setFuture(AbandonedFuture* future) {
   m_future = future;
   if (future == nullptr) return;
@@ -113,8 +111,10 @@ void TimelineStrip::setFuture(AbandonedFuture* future) {
 }
 
 QSize TimelineStrip::sizeHint() const {
-  return {scaled(this, 600), scaled(this, m_compared != nullptr ? 76 : 56) + branchHeight() +
-                                 rulesHeightOf(this, m_rules)};
+  const int rows = visibleRows();
+  const int compared = rows > 0 ? scaled(this, 2) + rows * comparedRowHeight() : 0;
+  return {scaled(this, 600),
+          scaled(this, 56) + compared + branchHeight() + rulesHeightOf(this, m_rules)};
 }
 
 void TimelineStrip::setRules(RuleWatch* rules) {
@@ -197,17 +197,9 @@ QRect TimelineStrip::bandRect() const {
           std::max(width() - 2 * left, 1), high};
 }
 
-QRect TimelineStrip::comparedRect() const {
-  if (m_compared == nullptr) return {};
-  const QRect band = bandRect();
-  const int high = scaled(this, 18);
-  return {band.left(), lanesTop() - branchHeight() - high, band.width(), high};
-}
-
 QRect TimelineStrip::marksRect() const {
   const QRect band = bandRect();
-  const int bottom = m_compared != nullptr ? comparedRect().top() : lanesTop() - branchHeight();
-  return {band.left(), 0, band.width(), bottom};
+  return {band.left(), 0, band.width(), comparedTop()};
 }
 
 std::optional<QRectF> TimelineStrip::windowRect() const {
@@ -302,14 +294,6 @@ const std::vector<EventMark>& TimelineStrip::marks() {
   return m_marks;
 }
 
-std::vector<EventMark> TimelineStrip::comparedMarks() const {
-  if (m_compared == nullptr) return {};
-  TimeAxis moved = m_axis;
-  moved.shown = {m_axis.shown.begin - m_comparedOffset, m_axis.shown.end - m_comparedOffset};
-  return layOutMarks(m_compared->events(), moved, markSizes(),
-                     QFontMetrics(themeFont(TypeRole::Small)), m_shown->filter());
-}
-
 const EventMark* TimelineStrip::nearest(const std::vector<EventMark>& marks, double x) const {
   const EventMark* found = nullptr;
   double distance = scaled(this, markReach);
@@ -334,6 +318,7 @@ QString TimelineStrip::tipAt(QPointF at) {
         .arg(momentText(m_future->begin(), 0, clock), momentText(m_future->end(), 0, clock));
   }
   if (rulesRect().contains(at.toPoint())) return rulesTip(at.x());
+  if (rowAt(at) >= 0) return comparedTip(at);
   if (const auto handle = rangeHandle(); handle && handle->contains(at)) {
     return QStringLiteral("Time range of the plots. Drag to move it, drag an end to change it");
   }
@@ -364,6 +349,7 @@ bool TimelineStrip::event(QEvent* event) {
 
 void TimelineStrip::resizeEvent(QResizeEvent*) {
   fitAxis();
+  placeScrollBar();
 }
 
 namespace {
@@ -374,7 +360,9 @@ constexpr double edgeReach = 7.0;  // px of the mock: where an end of the handle
 
 TimelineStrip::Grab TimelineStrip::grabAt(QPointF at, Qt::KeyboardModifiers keys) const {
   if (keys & Qt::ShiftModifier) return Grab::Range;
-  if (comparedRect().contains(at.toPoint())) return Grab::Compared;
+  if (const int row = rowAt(at); row >= 0) {
+    return comparedChip(row).contains(at.toPoint()) ? Grab::Chip : Grab::Compared;
+  }
   const auto handle = rangeHandle();
   if (!handle || !handle->adjusted(-1, 0, 1, 1).contains(at)) return Grab::Moment;
   const double end = scaled(this, edgeReach);
@@ -394,6 +382,9 @@ void TimelineStrip::showCursorAt(QPointF at, Qt::KeyboardModifiers keys) {
       break;
     case Grab::Compared:
       setCursor(Qt::SizeHorCursor);
+      break;
+    case Grab::Chip:
+      setCursor(Qt::PointingHandCursor);
       break;
     case Grab::Range:
       setCursor(Qt::IBeamCursor);
@@ -427,8 +418,9 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
     m_shown->seek(!broken.empty()   ? broken.front()->moment.range.begin
                   : mark != nullptr ? m_shown->events()->at(mark->row).time
                                     : m_grabTime);
-  } else if (m_grab == Grab::Compared) {
-    m_grabOffset = m_comparedOffset;
+  } else if (m_grab == Grab::Compared || m_grab == Grab::Chip) {
+    m_grabRow = rowAt(m_pressedAt);
+    m_grabOffset = m_compared[static_cast<std::size_t>(m_grabRow)].offset;
   } else if (m_grab != Grab::Range) {
     m_grabRange = m_plots->range();
     setCursor(m_grab == Grab::Window ? Qt::ClosedHandCursor : Qt::SizeHorCursor);
@@ -465,8 +457,9 @@ void TimelineStrip::mouseMoveEvent(QMouseEvent* event) {
       break;
     }
     case Grab::Compared:
-      emit comparedMoved(m_grabOffset + by);
+      if (m_grabRow < comparedRows()) emit comparedMoved(m_grabRow, m_grabOffset + by);
       break;
+    case Grab::Chip:
     case Grab::Nothing:
       break;
   }
@@ -492,6 +485,7 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
   if (!m_dragged && event->button() == Qt::LeftButton) {
     if (grabbed == Grab::Range) m_shown->setSelection({});
     if (grabbed == Grab::Compared) m_shown->seek(m_grabTime);
+    if (grabbed == Grab::Chip && m_grabRow < comparedRows()) emit comparedToggled(m_grabRow);
   }
   showCursorAt(event->position(), event->modifiers());
 }
@@ -509,6 +503,13 @@ void TimelineStrip::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void TimelineStrip::wheelEvent(QWheelEvent* event) {
+  // Over their marks, rows that do not all fit are scrolled.
+  const int row = rowAt(event->position());
+  if (m_scroll->maximum() > 0 && row >= 0 &&
+      comparedChip(row).left() <= event->position().toPoint().x()) {
+    QApplication::sendEvent(m_scroll, event);
+    return;
+  }
   const QPoint angle = event->angleDelta();
   const bool sideways = angle.x() != 0 || (event->modifiers() & Qt::ShiftModifier);
   const double notches = (angle.y() != 0 ? angle.y() : angle.x()) / 120.0;
@@ -526,17 +527,15 @@ void TimelineStrip::wheelEvent(QWheelEvent* event) {
 void TimelineStrip::contextMenuEvent(QContextMenuEvent* event) {
   const QPointF at = event->pos();
   if (const EventMark* mark = markAt(at)) {
-    emit menuRequested(event->globalPos(), &m_shown->events()->at(mark->row), false);
+    emit menuRequested(event->globalPos(), &m_shown->events()->at(mark->row), -1);
     return;
   }
-  if (comparedRect().contains(event->pos())) {
-    const std::vector<EventMark> all = comparedMarks();
-    if (const EventMark* mark = nearest(all, at.x())) {
-      emit menuRequested(event->globalPos(), &m_compared->at(mark->row), true);
-      return;
-    }
-  }
-  emit menuRequested(event->globalPos(), nullptr, false);
+  const int row = rowAt(at);
+  const EventMark* mark = row >= 0 ? nearest(comparedMarks(row), at.x()) : nullptr;
+  emit menuRequested(
+      event->globalPos(),
+      mark != nullptr ? &m_compared[static_cast<std::size_t>(row)].events->at(mark->row) : nullptr,
+      row);
 }
 
 }  // namespace pitchboard::ui

@@ -6,7 +6,9 @@
 // the band; Shift-drag chooses a range; wheel zooms, middle-drag or a wheel with Shift moves. UI
 // thread only.
 
+#include <QStringList>
 #include <QWidget>
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "event_marks.h"
 
 class QLineEdit;
+class QScrollBar;
 
 namespace pitchboard::ui {
 
@@ -27,6 +30,17 @@ class RuleWatch;
 struct BrokenRule;
 class ShownMoment;
 
+/// A compared session in a row of its own.
+struct ComparedRow {
+  const EventList* events = nullptr;
+  double offset = 0.0;  ///< s, where its second 0 stands
+  QString caption = {};
+  int number = 1;         ///< of its colour and mark (session_mark.h)
+  bool isOnField = true;  ///< else its mark is hollow
+  /// s, its first and last moment, in its own time.
+  std::optional<telemetry::TimeRange> range = {};
+};
+
 class TimelineStrip : public QWidget {
   Q_OBJECT
  public:
@@ -34,9 +48,8 @@ class TimelineStrip : public QWidget {
   TimelineStrip(ShownMoment* shown, LinkedTime* plots, QWidget* parent = nullptr);
   ~TimelineStrip() override;
 
-  /// A second session's events in a row of their own, under this caption; its second 0 stands at
-  /// `offset`. Null: none.
-  void setCompared(const EventList* events, double offset, const QString& caption);
+  /// Compared sessions, a row each, below each other; many are low, and scroll.
+  void setCompared(std::vector<ComparedRow> rows);
 
   /// What the match has left, a dashed branch above the band; null: none.
   void setFuture(AbandonedFuture* future);
@@ -57,11 +70,14 @@ class TimelineStrip : public QWidget {
   // Geometry of the parts, for the menu and for tests.
   const TimeAxis& axis() const { return m_axis; }
   const std::vector<EventMark>& marks();
-  std::vector<EventMark> comparedMarks() const;
+  const std::vector<EventMark>& comparedMarks(int row = 0);
   QRect bandRect() const;
-  QRect comparedRect() const;  ///< empty while nothing is compared
-  QRect branchRect() const;    ///< of the abandoned future; empty while there is none
-  QRect rulesRect() const;     ///< empty while there are no rules
+  /// Empty while there is no such row, or while it is scrolled out of sight.
+  QRect comparedRect(int row = 0) const;
+  /// The colour and mark at the end of a row; a click there shows the session on the field or not.
+  QRect comparedChip(int row = 0) const;
+  QRect branchRect() const;  ///< of the abandoned future; empty while there is none
+  QRect rulesRect() const;   ///< empty while there are no rules
   /// Broken rules at this pixel, the most severe first.
   std::vector<const BrokenRule*> brokenAt(double x) const;
   /// What moves the plots' window, and changes it at its ends: below the band, never narrower than
@@ -82,15 +98,21 @@ class TimelineStrip : public QWidget {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
 
  signals:
-  /// The compared session was moved by hand: its second 0 is to be there, s.
-  void comparedMoved(double offset);
-  /// On this event, of the compared session or not; null: on none.
-  void menuRequested(QPoint global, const pitchboard::link::MatchEvent* event, bool compared);
+  /// A compared session was moved by hand: its second 0 is to be there, s.
+  void comparedMoved(int row, double offset);
+  /// A compared session is to be on the field, or not any more.
+  void comparedToggled(int row);
+  /// On this event; null: on none. `row`: of the compared session; -1: of what is shown.
+  void menuRequested(QPoint global, const pitchboard::link::MatchEvent* event, int row);
+  /// Session files were dropped here.
+  void filesDropped(const QStringList& paths);
 
  private:
-  enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared };
+  enum class Grab { Nothing, Moment, Window, WindowBegin, WindowEnd, Range, View, Compared, Chip };
   void addZoom(const char* id, const char* text, const std::function<void()>& change);
   MarkSizes markSizes() const;
   std::optional<QRectF> windowRect() const;  // of the plots, in the band
@@ -107,6 +129,13 @@ class TimelineStrip : public QWidget {
   QString tipAt(QPointF at);
   void finishNote(bool keep);
   QRect marksRect() const;
+  int comparedRows() const { return static_cast<int>(m_compared.size()); }
+  int visibleRows() const;
+  int comparedRowHeight() const;
+  int comparedTop() const;  // of the first visible row
+  int rowAt(QPointF at) const;
+  void placeScrollBar();
+  QString comparedTip(QPointF at);
   int branchHeight() const;
   int lanesTop() const;  // of what stands on the band
   QString rulesTip(double x) const;
@@ -116,6 +145,10 @@ class TimelineStrip : public QWidget {
   void paintWindow(QPainter& painter) const;
   void paintRange(QPainter& painter) const;
   void paintMarks(QPainter& painter);
+  void paintCompared(QPainter& painter);
+  void paintRow(QPainter& painter, const std::vector<EventMark>& marks,
+                const std::deque<link::MatchEvent>& events, double centre, double bottom,
+                double strength) const;
   void paintAxis(QPainter& painter) const;
   void paintMoment(QPainter& painter) const;
 
@@ -123,9 +156,16 @@ class TimelineStrip : public QWidget {
   LinkedTime* m_plots;
   AbandonedFuture* m_future = nullptr;
   RuleWatch* m_rules = nullptr;
-  const EventList* m_compared = nullptr;
-  double m_comparedOffset = 0.0, m_grabOffset = 0.0;
-  QString m_comparedCaption;
+  struct LaidOut {
+    std::vector<EventMark> marks;
+    TimeAxis axis;  // what they were laid out for
+    std::uint64_t revision = ~std::uint64_t{0};
+  };
+  std::vector<ComparedRow> m_compared;
+  std::vector<LaidOut> m_comparedMarks;  // of each row
+  QScrollBar* m_scroll;                  // of the rows; in their number
+  int m_grabRow = -1;
+  double m_grabOffset = 0.0;
   std::unique_ptr<Beat::Part> m_calm;
   TimeAxis m_axis;
   bool m_showsAll = true;

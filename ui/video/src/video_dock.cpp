@@ -3,18 +3,25 @@
 
 #include <QAction>
 #include <QDragEnterEvent>
+#include <QFile>
 #include <QLabel>
 #include <QMimeData>
 #include <QTimer>
 #include <QToolButton>
 #include <QUrl>
 #include <QVBoxLayout>
+#include <filesystem>
 #include <map>
 
+#include <telemetry/session/session_notes.h>
 #include <ui/base/file_dialog.h>
 #include <ui/base/in_place_message.h>
 #include <ui/base/table_style.h>
+#include <ui/sources/note_board.h>
+#include <ui/sources/note_layer.h>
+#include <ui/sources/note_painting.h>
 #include <ui/sources/replay_controller.h>
+#include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
 
 #include "align_bar.h"
@@ -49,7 +56,8 @@ QStringList draggedVideos(const QMimeData* data) {
 }
 
 /// With a decoder of its own: the panel goes on meanwhile.
-FilmCamera filmCamera(const telemetry::SessionVideo& kept, bool hasOverlay) {
+FilmCamera filmCamera(const telemetry::SessionVideo& kept, bool hasOverlay,
+                      std::vector<telemetry::DrawnNote> notes) {
   FilmCamera camera;
   const auto alignment = telemetry::alignmentOf(kept.anchors).value_or(telemetry::VideoAlignment{});
   const auto file = std::make_shared<std::optional<Result<telemetry::VideoFile>>>();
@@ -64,12 +72,13 @@ FilmCamera filmCamera(const telemetry::SessionVideo& kept, bool hasOverlay) {
     auto picture = video.picture(video.indexAt(own), within.width(), within.height(), progress);
     return picture ? imageOf(std::move(*picture)) : QImage();
   };
-  if (const auto ground = groundToPicture(kept.landmarks); ground && hasOverlay) {
-    camera.overlay = [ground](QPainter& painter, const QRectF& rect,
-                              const link::MatchFrame& frame) {
-      paintOverlay(painter, *ground, rect, frame);
-    };
-  }
+  const auto ground = hasOverlay ? groundToPicture(kept.landmarks) : std::nullopt;
+  camera.overlay = [ground, notes = std::move(notes),
+                    name = std::filesystem::path(kept.path).filename().string()](
+                       QPainter& painter, const QRectF& rect, const link::MatchFrame& frame) {
+    if (ground) paintOverlay(painter, *ground, rect, frame);
+    paintVideoNotes(painter, notes, name, rect, frame.snapshot.time);
+  };
   return camera;
 }
 
@@ -108,7 +117,9 @@ class VideoDock : public QWidget {
     std::vector<FilmCamera> all;
     for (const Camera& camera : m_cameras) {
       if (camera.video->info() != nullptr) {
-        all.push_back(filmCamera(camera.video->kept(), m_lines->isChecked()));
+        all.push_back(filmCamera(camera.video->kept(), m_lines->isChecked(),
+                                 m_parts.notes != nullptr ? m_parts.notes->notes()
+                                                          : std::vector<telemetry::DrawnNote>()));
       }
     }
     return all;
@@ -152,6 +163,13 @@ class VideoDock : public QWidget {
     m_points = button("videoPoints", "Points…", "Says where four points of the field are seen");
     m_remove =
         button("removeVideo", "Remove", "Removes the video from the session. The file stays");
+    if (m_parts.notes != nullptr) {
+      for (QAction* tool : m_parts.notes->tools()) {
+        QToolButton* draw = button("drawOnVideo", "", "");
+        draw->setDefaultAction(tool);
+        draw->setToolButtonStyle(Qt::ToolButtonIconOnly);
+      }
+    }
     row->addStretch(1);
     for (QToolButton* toggle : {m_align, m_lines, m_points}) toggle->setCheckable(true);
     connect(m_align, &QToolButton::toggled, this, [this] {
@@ -197,6 +215,8 @@ class VideoDock : public QWidget {
     connect(m_pointsBar, &PointsBar::done, this, [this] { m_points->setChecked(false); });
     connect(m_pointsBar, &PointsBar::nextChanged, this, &VideoDock::showPlacing);
     connect(&m_save, &QTimer::timeout, this, &VideoDock::saveNow);
+    connect(m_parts.recording, &SessionRecording::changed, this, &VideoDock::keepWithRecording);
+    connect(m_parts.recording, &SessionRecording::saved, this, &VideoDock::keepWith);
   }
 
   Camera* current() { return m_current < m_cameras.size() ? &m_cameras[m_current] : nullptr; }
@@ -245,10 +265,28 @@ class VideoDock : public QWidget {
     m_isChanged = false;
     if (m_home.session.empty()) {
       m_inMemory[m_home.source] = videos();
+      keepWithRecording();
       return;
     }
     const auto kept = telemetry::writeSessionVideos(m_home.session, videos());
     if (!kept) complain("The alignment will be lost", kept.error());
+  }
+
+  /// A match or live robots are recorded: what is in memory goes with the recording, too.
+  void keepWith(const QString& recording, const FrameSource* source) {
+    if (m_home == VideoHome{source, {}}) m_inMemory[source] = videos();
+    const std::vector<telemetry::SessionVideo>& known = m_inMemory[source];
+    const std::string path = recording.toStdString();
+    const bool hasFile = QFile::exists(QString::fromStdString(telemetry::sessionNotesPath(path)));
+    if (known.empty() && !hasFile) return;
+    const auto kept = telemetry::writeSessionVideos(path, known);
+    if (!kept) complain("The videos are not kept with the recording", kept.error());
+  }
+
+  void keepWithRecording() {
+    if (const FrameSource* source = m_parts.recording->source()) {
+      keepWith(m_parts.recording->path(), source);
+    }
   }
 
   void saveSoon() {
@@ -298,8 +336,33 @@ class VideoDock : public QWidget {
       }
     });
     connect(camera.view, &VideoView::placed, m_pointsBar, &PointsBar::place);
+    if (m_parts.notes != nullptr) addNotes(camera.view);
     m_cameras.push_back(std::move(camera));
     m_grid->add(m_cameras.back().view);
+  }
+
+  /// Nothing is drawn on a picture that is not of the moment that is shown.
+  void addNotes(VideoView* view) {
+    VideoCamera* video = view->camera();
+    const std::string name = video->name().toStdString();
+    const auto isOfMoment = [this, view, video] {
+      return video->isCovered() && !video->picture().isNull() && !view->isPlacing() &&
+             !(m_align->isChecked() && current() != nullptr && current()->view == view);
+    };
+    auto* layer = new NoteLayer(
+        m_parts.notes,
+        {telemetry::NotePlace::Video,
+         [name](const QPointF&) {
+           return NoteGround::Owner{name, {}};
+         },
+         [view, name, isOfMoment](const std::string& on) -> std::optional<QTransform> {
+           if (on != name || !isOfMoment()) return {};
+           return fromShares(view->pictureRect());
+         },
+         [view] { return view->pictureRect(); }},
+        view, view);
+    connect(video, &VideoCamera::pictureChanged, layer, &NoteLayer::refresh);
+    connect(m_align, &QToolButton::toggled, layer, &NoteLayer::refresh);
   }
 
   /// A new video begins where its clock says, or with the session.

@@ -34,6 +34,7 @@ class VideoView : public QWidget {
   /// Shows points of the field, which can be dragged. The next click stands for `next`, if there is
   /// one.
   void setPlacing(bool on, std::optional<Point> next);
+  bool isPlacing() const { return m_placing; }
 
  signals:
   void pressed();

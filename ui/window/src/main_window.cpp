@@ -38,7 +38,7 @@
 #include <ui/share/network_share.h>
 #include <ui/sources/abandoned_future.h>
 #include <ui/sources/attached_boards.h>
-#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/linked_time.h>
 #include <ui/sources/live_controller.h>
 #include <ui/sources/live_overlay.h>
@@ -46,6 +46,7 @@
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
+#include <ui/sources/note_board.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/rule_watch.h>
@@ -99,8 +100,10 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_shown->add(m_live);
   m_shown->add(m_replay);
   m_shown->setTimesOfDay(settings->value(QStringLiteral("view/timesOfDay"), true).toBool());
+  m_noteBoard = new NoteBoard(m_shown, controller, m_replay, m_recording, this);
   m_undo->add(controller->edits()->undoStack(),
               [this] { return m_shown->kind().canBeEdited && !m_shown->isLookingBack(); });
+  m_undo->add(m_noteBoard->undoStack(), [] { return true; });
   setWindowTitle(QStringLiteral("Pitchboard"));
   // A title drags its own panel: of a group of tabs Qt neither asks where it may be dropped nor
   // says where it was.
@@ -114,8 +117,9 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   column->setSpacing(0);
   m_notices = new NoticeBar(centre);
   m_field = new FieldView(m_shown, controller, centre);
+  m_field->showNotes(m_noteBoard);
   m_overlay = new LiveOverlay(controller, m_live, m_shown, this);
-  m_compared = new ComparedSession(m_shown, this);
+  m_compared = new ComparedSessions(m_shown, this);
   column->addWidget(m_field, 1);
   m_notices->floatOver(centre);
   setCentralWidget(centre);
@@ -155,6 +159,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
                 m_docks);
   m_undo->add(m_plotsDock->undoStack(), [] { return true; });
+  connect(m_plotsDock, &PlotsDock::noted, m_status, &StudioStatusBar::note);
   makeMenus();
   makeKeys();
   m_bar->addReplayActions({m_keys->action("openSession"), m_keys->action("compareSession"),
@@ -172,8 +177,16 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
                    settings, canvas);
   }
   connectNotices();
-  // What was compared belongs to the session before.
-  connect(m_sessions, &SessionFiles::replaced, m_compared, &ComparedSession::stop);
+  // What was compared belongs to the session before, unless that changes places with one of them.
+  connect(m_sessions, &SessionFiles::replaced, m_compared, [this] {
+    if (!m_compared->isInstead(m_replay->path())) m_compared->removeAll();
+  });
+  connect(m_compared, &ComparedSessions::openRequested, m_sessions, &SessionFiles::open);
+  connect(m_sessions, &SessionFiles::besideRequested, m_compared, &ComparedSessions::open);
+  connect(m_replay, &ReplayController::failed, m_compared, &ComparedSessions::forgetInstead);
+  connect(m_replay, &ReplayController::opened, m_compared, [this] {
+    if (m_compared->isInstead(m_replay->path())) m_compared->finishInstead();
+  });
   connect(m_replay, &ReplayController::opened, this, [this] {
     QStringList recent = recentSessions();
     recent.removeAll(m_replay->recording());
@@ -233,6 +246,7 @@ void MainWindow::shutDown() {
   delete m_notices;
   delete takeCentralWidget();
 
+  delete m_noteBoard;
   delete m_recording;
   delete m_boards;
   delete m_timelineActions;
@@ -244,9 +258,10 @@ void MainWindow::shutDown() {
 }
 
 StudioParts MainWindow::parts() {
-  return {m_controller,      m_shown,  m_selection, m_field,    m_time,    m_settings, m_plots,
-          m_timelineActions, m_replay, m_recording, m_live,     m_overlay, m_compared, m_future,
-          m_tests,           m_boards, m_explorer,  m_rerunner, &m_work,   m_share,    m_rules};
+  return {m_controller, m_shown,           m_selection, m_field,     m_time,     m_settings,
+          m_plots,      m_timelineActions, m_replay,    m_recording, m_live,     m_overlay,
+          m_compared,   m_future,          m_tests,     m_boards,    m_explorer, m_rerunner,
+          &m_work,      m_share,           m_rules,     m_sessions,  m_noteBoard};
 }
 
 QStringList MainWindow::recentSessions() const {
@@ -432,10 +447,13 @@ void MainWindow::connectField() {
   connect(m_field, &FieldView::blackboardRequested, m_selection,
           &RobotSelection::blackboardRequested);
   connect(m_overlay, &LiveOverlay::otherReceived, m_field, &FieldView::showOther);
-  connect(m_compared, &ComparedSession::momentReached, m_field, &FieldView::showCompared);
+  connect(m_compared, &ComparedSessions::momentReached, m_field, &FieldView::showCompared);
+  connect(m_compared, &ComparedSessions::changed, m_field, [this] {
+    if (!m_compared->isEmpty()) m_field->showCompared(0, nullptr);
+  });
   connect(m_explorer, &Explorer::heatChanged, m_field, &FieldView::showHeat);
   connect(m_future, &AbandonedFuture::momentReached, m_field, [this](const FramePtr& frame) {
-    if (!m_compared->isOn()) m_field->showCompared(frame);
+    if (m_compared->isEmpty()) m_field->showCompared(0, frame);
   });
   connect(m_field, &FieldView::cursorMoved, m_status, &StudioStatusBar::setCursor);
   connect(m_field, &FieldView::saveScenarioRequested, m_files, &ScenarioFiles::askAndSave);
@@ -518,12 +536,12 @@ void MainWindow::connectNotices() {
   }
   connect(m_recording, &SessionRecording::failed, this, &MainWindow::recordingFailed);
   connect(m_share, &NetworkShare::failed, m_notices, noticeOf(share));
+  connect(m_noteBoard, &NoteBoard::notKept, m_notices, noticeOf(QStringLiteral("notes")));
   connect(m_share, &NetworkShare::changed, m_notices, [this] {
     if (m_share->isOn()) m_notices->settle(share);
   });
-  connect(m_recording, &SessionRecording::changed, m_notices, [this] {
-    if (m_recording->isRecording()) m_notices->settle(recording);
-  });
+  connect(m_recording, &SessionRecording::began, m_notices,
+          [this] { m_notices->settle(recording); });
   connect(m_recording, &SessionRecording::saved, this, [this](const QString& path) {
     m_notices->show({recording, NoticeTone::Success}, QStringLiteral("Saved: %1").arg(path),
                     {{QStringLiteral("Open in Replay"), [this, path] { m_sessions->open(path); }},
@@ -612,8 +630,8 @@ void MainWindow::connectNotices() {
               m_notices->settle(live);
             }
           });
-  connect(m_compared, &ComparedSession::failed, m_notices, noticeOf(compared));
-  connect(m_compared, &ComparedSession::changed, m_notices,
+  connect(m_compared, &ComparedSessions::failed, m_notices, noticeOf(compared));
+  connect(m_compared, &ComparedSessions::started, m_notices,
           [this] { m_notices->settle(compared); });
   connect(m_tests, &SituationTests::failed, m_notices, noticeOf(test));
   connect(m_tests, &SituationTests::saved, m_notices, [this] { m_notices->settle(test); });

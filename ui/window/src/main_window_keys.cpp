@@ -5,6 +5,7 @@
 #include <QKeyEvent>
 
 #include <ui/field/field_view.h>
+#include <ui/sources/note_board.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/shown_moment.h>
 
@@ -50,7 +51,7 @@ void MainWindow::makeKeys() {
 
 // Escape: the first of these that there is.
 void MainWindow::cancelStepByStep() {
-  if (m_field->cancel()) return;
+  if (m_noteBoard->cancel() || m_field->cancel()) return;
   if (m_shown->selection())
     m_shown->setSelection({});
   else if (m_shown->isLookingBack())

@@ -5,6 +5,7 @@
 #include <QAbstractButton>
 #include <QCloseEvent>
 #include <QDockWidget>
+#include <QGuiApplication>
 #include <QLineEdit>
 #include <QMouseEvent>
 #include <QScreen>
@@ -29,6 +30,7 @@ namespace {
 // Raised when docks come or go in a way that older layouts cannot describe.
 constexpr int layoutVersion = 2;
 const QString geometryKey = QStringLiteral("window/geometry");
+const QString placeKey = QStringLiteral("window/place");  // of the frame; the size without it
 const QString layoutKey = QStringLiteral("window/layout");
 const QString untouchedKey = QStringLiteral("window/layoutFollowsSize");
 }  // namespace
@@ -74,6 +76,7 @@ void MainWindow::restoreLayout() {
   const QSize least(scaled(this, minWindow.width()), scaled(this, minWindow.height()));
   setMinimumSize(least.boundedTo(screen()->availableSize()));
   const bool isKept = restoreGeometry(m_settings->value(geometryKey).toByteArray());
+  restorePlace();
   if (!isKept) {
     const QSize room = screen()->availableSize();
     resize(qMin(scaled(this, 1440), room.width()), qMin(scaled(this, 900), room.height()));
@@ -108,6 +111,17 @@ void MainWindow::restoreLayout() {
   restoreFieldLayers(*m_field, *m_settings);
 }
 
+// Qt guesses the height of the title bar from the style, and moves a window that starts closer to
+// the top of the screen down to there; the frame itself is known only once the window is shown.
+void MainWindow::restorePlace() {
+  const QRect kept = m_settings->value(placeKey).toRect();
+  if (!kept.isValid() || isMaximized() || isFullScreen()) return;
+  const QScreen* on = QGuiApplication::screenAt(kept.center());
+  if (on == nullptr || !on->availableGeometry().contains(kept)) return;
+  resize(kept.size());
+  move(kept.topLeft());
+}
+
 // Kept while the studio runs: however it ends, the layout is there.
 void MainWindow::saveLayout() {
   if (m_fieldOnly->isOn()) return;
@@ -116,6 +130,10 @@ void MainWindow::saveLayout() {
   // A file that is written again and again is a disk that is busy.
   if (m_settings->value(geometryKey).toByteArray() != where) {
     m_settings->setValue(geometryKey, where);
+  }
+  if (const QRect place(pos(), size());
+      !isMaximized() && !isFullScreen() && m_settings->value(placeKey).toRect() != place) {
+    m_settings->setValue(placeKey, place);
   }
   saveFieldLayers(*m_field, *m_settings);
   if (now == m_savedLayout) return;

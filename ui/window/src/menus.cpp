@@ -31,13 +31,16 @@
 #include <ui/session/session_files.h>
 #include <ui/share/share_dialog.h>
 #include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/live_overlay.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
+#include <ui/sources/note_board.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
+#include <ui/timeline/compared_menu.h>
 #include <ui/timeline/timeline_actions.h>
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
@@ -45,6 +48,7 @@
 #include "alarms.h"
 #include "field_only.h"
 #include "help_windows.h"
+#include "mapping_menu.h"
 #include "match_menu.h"
 #include "scenario_chooser.h"
 #include "status_bar.h"
@@ -130,6 +134,9 @@ void StudioMenus::makeFile() {
   SessionFiles* sessions = m_context.sessions;
   withIcon(menu->addAction(QStringLiteral("Open s&ession…"), sessions, &SessionFiles::askAndOpen),
            "document-open-folder", "openSession");
+  QAction* library = menu->addAction(QStringLiteral("&Library"));
+  withIcon(library, "folder", "showLibrary");
+  library->setToolTip(QStringLiteral("Lists all your sessions: teams, score, notes, a picture"));
   QAction* join = menu->addAction(QStringLiteral("&Add recording of a robot…"), sessions,
                                   &SessionFiles::askAndJoin);
   join->setObjectName(QStringLiteral("addRecording"));
@@ -141,6 +148,7 @@ void StudioMenus::makeFile() {
                             : QString());
   });
   QObject::connect(menu, &QMenu::aboutToHide, join, [join] { enableUnless(*join, {}); });
+  addMappingAction(menu, sessions, &m_window);
   onlyInTheMatch(withIcon(menu->addAction(QStringLiteral("&Save this moment as a scenario…"), files,
                                           &ScenarioFiles::askAndSave),
                           "document-save", "saveScenario"));
@@ -153,6 +161,13 @@ void StudioMenus::makeFile() {
                    [asTest, tests] { enableUnless(*asTest, tests->whyNot()); });
   QObject::connect(menu, &QMenu::aboutToHide, asTest, [asTest] { enableUnless(*asTest, {}); });
   for (QDockWidget* dock : m_context.docks) {
+    if (dock->objectName() == QLatin1String("library")) {
+      QObject::connect(library, &QAction::triggered, dock, [dock] {
+        dock->show();
+        dock->raise();
+        focusFirst(*dock->widget());
+      });
+    }
     if (dock->objectName() != QLatin1String("experiments")) continue;
     QObject::connect(tests, &SituationTests::saved, dock, [dock] {
       dock->show();
@@ -323,7 +338,7 @@ void StudioMenus::makeLive() {
       [window = &m_window, boards = m_parts.boards] { showAttachDialog(boards, window); });
   menu->addAction(QStringLiteral("Add &Foxglove bridge…"), &m_window,
                   [window = &m_window, parts = m_parts] {
-                    showFoxgloveDialog(parts.live, parts.settings, window);
+                    mapBridgesOf(showFoxgloveDialog(parts.live, parts.settings, window));
                   });
 }
 
@@ -383,6 +398,7 @@ void StudioMenus::makeSimulation() {
 void StudioMenus::makeTimeline() {
   QMenu* menu = m_window.menuBar()->addMenu(QStringLiteral("&Timeline"));
   m_parts.timelineActions->fill(menu);
+  addNoteTools(menu, *m_parts.notes);
   menu->addSeparator();
   SessionFiles* sessions = m_context.sessions;
   using Poses = link::MomentOptions::Poses;
@@ -467,27 +483,38 @@ void StudioMenus::makeTimeline() {
       dock->raise();
     });
   }
-  ComparedSession* compared = m_parts.compared;
+  ComparedSessions* compared = m_parts.compared;
   QAction* compare =
-      menu->addAction(QStringLiteral("Co&mpare with session…"), sessions, [sessions, compared] {
-        const QString path = sessions->askForFile(QStringLiteral("Compare with session"));
-        if (!path.isEmpty()) compared->open(path);
+      menu->addAction(QStringLiteral("Co&mpare with sessions…"), sessions, [sessions, compared] {
+        compared->open(sessions->askForFiles(QStringLiteral("Compare with sessions")));
       });
-  QAction* byTime = menu->addAction(QStringLiteral("Align compared session by &time"), compared,
-                                    &ComparedSession::alignByTime);
+  QMenu* each = menu->addMenu(QStringLiteral("Compare&d sessions"));
+  each->setObjectName(QStringLiteral("comparedSessions"));
+  QObject::connect(each, &QMenu::aboutToShow, compared, [each, compared] {
+    each->clear();
+    for (ComparedSession* session : compared->all()) {
+      QMenu* one = each->addMenu(sessionMark(session->number()) + QLatin1Char(' ') +
+                                 session->caption().replace(QLatin1Char('&'), QLatin1String("&&")));
+      one->setToolTipsVisible(true);
+      fillComparedMenu(one, compared, session);
+    }
+  });
+  QAction* byTime = menu->addAction(QStringLiteral("Align compared sessions by &time"), compared,
+                                    &ComparedSessions::alignAllByTime);
   QAction* stop =
-      menu->addAction(QStringLiteral("Stop c&omparing"), compared, &ComparedSession::stop);
+      menu->addAction(QStringLiteral("Stop c&omparing"), compared, &ComparedSessions::removeAll);
   withIcon(compare, "view-split-left-right", "compareSession");
   stop->setObjectName(QStringLiteral("stopComparing"));
-  const auto showCompared = [byTime, stop, compared] {
+  const auto showCompared = [each, byTime, stop, compared] {
     const QString none =
-        compared->isOn() ? QString() : QStringLiteral("No session is being compared");
+        compared->isEmpty() ? QStringLiteral("No session is being compared") : QString();
+    enableUnless(*each->menuAction(), none);
     enableUnless(*stop, none);
-    enableUnless(*byTime, none.isEmpty() && compared->isAlignedByTime()
+    enableUnless(*byTime, none.isEmpty() && compared->areAlignedByTime()
                               ? QStringLiteral("The sessions are aligned by time")
                               : none);
   };
-  QObject::connect(compared, &ComparedSession::changed, stop, showCompared);
+  QObject::connect(compared, &ComparedSessions::changed, stop, showCompared);
   showCompared();
   menu->addSeparator();
   SessionRecording* recording = m_parts.recording;

@@ -134,7 +134,12 @@ void StudioStatusBar::copyStateHash() {
   const QString hash =
       QStringLiteral("%1").arg(m_context.controller->stateHash(), 16, 16, QLatin1Char('0'));
   QApplication::clipboard()->setText(hash);
-  showMessage(QStringLiteral("State hash %1 copied").arg(hash), 4000);
+  note(QStringLiteral("State hash %1 copied").arg(hash));
+}
+
+void StudioStatusBar::note(const QString& sentence) {
+  constexpr int milliseconds = 4000;
+  showMessage(sentence, milliseconds);
 }
 
 void StudioStatusBar::refresh() {

@@ -42,6 +42,8 @@ class StudioStatusBar : public QStatusBar {
   explicit StudioStatusBar(const StatusContext& context, QWidget* parent = nullptr);
   void setCursor(QPointF metres, bool valid);
   void copyStateHash();
+  /// Shows a sentence for a few seconds.
+  void note(const QString& sentence);
 
  private:
   /// A label at the left and the line before it.

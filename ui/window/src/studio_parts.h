@@ -10,7 +10,7 @@ namespace pitchboard::ui {
 
 class AttachedBoards;
 class AbandonedFuture;
-class ComparedSession;
+class ComparedSessions;
 class Explorer;
 class FieldView;
 class LinkedTime;
@@ -18,12 +18,14 @@ class LiveController;
 class LiveOverlay;
 class MatchController;
 class NetworkShare;
+class NoteBoard;
 class PlotTarget;
 class ReplayController;
 class Rerunner;
 class RobotSelection;
 class RuleWatch;
 class RunningWork;
+class SessionFiles;
 class SessionRecording;
 class SituationTests;
 class ShownMoment;
@@ -41,17 +43,19 @@ struct StudioParts {
   TimelineActions* timelineActions = nullptr;
   ReplayController* replay = nullptr;  ///< a recorded session
   SessionRecording* recording = nullptr;
-  LiveController* live = nullptr;       ///< listens once it was asked to
-  LiveOverlay* overlay = nullptr;       ///< the other source drawn beside the shown one
-  ComparedSession* compared = nullptr;  ///< a second session drawn over the shown one
-  AbandonedFuture* future = nullptr;    ///< what the match has left by going on from earlier
-  SituationTests* tests = nullptr;      ///< moments that are saved as tests
-  AttachedBoards* boards = nullptr;     ///< blackboards of this computer
-  Explorer* explorer = nullptr;         ///< what may follow the moment shown
-  Rerunner* rerunner = nullptr;         ///< the recording through a process again
-  RunningWork* work = nullptr;          ///< what closing the window would end
-  NetworkShare* share = nullptr;        ///< what other programs see
-  RuleWatch* rules = nullptr;           ///< conditions that must not hold
+  LiveController* live = nullptr;        ///< listens once it was asked to
+  LiveOverlay* overlay = nullptr;        ///< the other source drawn beside the shown one
+  ComparedSessions* compared = nullptr;  ///< sessions drawn over the shown one
+  AbandonedFuture* future = nullptr;     ///< what the match has left by going on from earlier
+  SituationTests* tests = nullptr;       ///< moments that are saved as tests
+  AttachedBoards* boards = nullptr;      ///< blackboards of this computer
+  Explorer* explorer = nullptr;          ///< what may follow the moment shown
+  Rerunner* rerunner = nullptr;          ///< the recording through a process again
+  RunningWork* work = nullptr;           ///< what closing the window would end
+  NetworkShare* share = nullptr;         ///< what other programs see
+  RuleWatch* rules = nullptr;            ///< conditions that must not hold
+  SessionFiles* sessions = nullptr;      ///< opens sessions
+  NoteBoard* notes = nullptr;            ///< what is drawn on field, plots and videos
 };
 
 }  // namespace pitchboard::ui

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <cstdio>
 
+#include <base/base64.h>
 #include <robotlink/report/field_svg.h>
 #include <robotlink/report/report_page.h>
-#include <telemetry/wire/base64.h>
 
 namespace pitchboard::link {
 namespace {
@@ -136,7 +136,7 @@ std::string trajectories(const Calibration& c, const sim::FieldSpec& field) {
       fixed(100.0 * c.check.rmsBase, 1) +
       " cm.</p>\n<figure><img alt=\"Trajectories\" "
       "src=\"data:image/svg+xml;base64," +
-      telemetry::toBase64(fieldSvg(field, all)) +
+      toBase64(fieldSvg(field, all)) +
       "\"><figcaption>Simulated trajectories over recorded ones, from the same commands. White: "
       "recorded. Blue: calibrated. Orange: base model.</figcaption></figure>\n<div "
       "class=\"charts\">\n";

@@ -367,12 +367,14 @@ class Pass {
 
 }  // namespace
 
+double logLikelihood(const Innovation& one) {
+  return -0.5 *
+         (one.value * one.value / one.variance + std::log(2.0 * std::numbers::pi * one.variance));
+}
+
 double logLikelihood(const std::vector<Innovation>& innovations) {
   double sum = 0.0;
-  for (const Innovation& one : innovations) {
-    sum -= 0.5 *
-           (one.value * one.value / one.variance + std::log(2.0 * std::numbers::pi * one.variance));
-  }
+  for (const Innovation& one : innovations) sum += logLikelihood(one);
   return std::isfinite(sum) ? sum : -std::numeric_limits<double>::infinity();
 }
 

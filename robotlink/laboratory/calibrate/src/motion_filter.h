@@ -95,6 +95,7 @@ class MotionFilter {
   /// carried out do not.
   bool dependsOn(std::size_t parameter) const;
   double timeOf(std::uint32_t row) const { return m_log.rows[row].time; }
+  double lastTime() const { return m_log.rows.back().time; }
   const std::vector<ExecutedAction>& actions() const { return m_actions; }
   /// Rows in which the robot may push the ball, another robot, a goal or a wall: its gait does not
   /// say how it moves.
@@ -124,6 +125,7 @@ class MotionFilter {
   bool m_seesCorners = false;
 };
 
+double logLikelihood(const Innovation& innovation);
 double logLikelihood(const std::vector<Innovation>& innovations);
 
 }  // namespace pitchboard::link

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include <base/angles.h>
@@ -27,6 +29,9 @@ constexpr double minBlocks = 12.0;
 // Among others a robot is also touched too weakly to be noticed: by so much larger the deviations
 // were than the likelihood says (calibration_proof with `match`).
 constexpr double weakTouches = 1.25;
+// They only add to the noise of the gait: towards less noise its intervals had to be so many times
+// as long again.
+constexpr double touchedNoise = 1.6;
 constexpr double likelyNoise = 2.0;  // times the prior's median, of a gait that may be pushed
 
 using Vector = Eigen::VectorXd;
@@ -206,6 +211,25 @@ class Scoring {
     return out;
   }
 
+  /// The logarithm of the likelihood of each stretch of time; those of all delays are of the same
+  /// times.
+  std::vector<double> blockLogs(double atDelay) {
+    std::vector<double> out;
+    const sim::RobotModel model = modelAt(logs);
+    for (std::size_t f = 0; f < m_filters.size(); ++f) {
+      m_filters[f].run(model, atDelay, m_decisions[f], m_scratch);
+      const std::size_t first = out.size();
+      const double begin = m_filters[f].timeOf(0);
+      const double length = m_filters[f].lastTime() - begin;
+      out.resize(first + static_cast<std::size_t>(length / blockLength) + 1, 0.0);
+      for (const Innovation& one : m_scratch) {
+        const double since = m_filters[f].timeOf(one.row) - begin;
+        out[first + static_cast<std::size_t>(since / blockLength)] += logLikelihood(one);
+      }
+    }
+    return out;
+  }
+
   /// One step of scoring; the length of the step in posterior deviations, largest component.
   double step() {
     const Derivatives here = derivativesAt(logs);
@@ -308,6 +332,14 @@ class Scoring {
   std::vector<Vector> m_blocks;
 };
 
+/// Whether something that it did not see moved it, or somebody else the ball.
+bool othersTookPart(std::span<const MotionFilter> filters) {
+  return std::ranges::any_of(filters, [](const MotionFilter& one) {
+    const auto isSet = [](bool row) { return row; };
+    return std::ranges::any_of(one.pushed(), isSet) || std::ranges::any_of(one.ballMoves(), isSet);
+  });
+}
+
 /// Posterior over the delay: the program sees whole ticks only, so that every number of a cell of
 /// one tick has the same likelihood.
 struct DelayPosterior {
@@ -317,11 +349,31 @@ struct DelayPosterior {
   double share = 1.0;  ///< deviation as a share of the prior's
 };
 
+/// Which share of the difference between two log-likelihoods counts, from the differences in
+/// stretches of time. In a right model the variance of their sum is twice its size; innovations
+/// that are alike over time, or larger at times than the model has them, make it larger, and so
+/// many fewer measurements there are in effect (magnitude adjustment; Pauli, Racugno, Ventura,
+/// Statistica Sinica 21, 2011).
+double effectiveShare(const std::vector<double>& differences) {
+  const auto blocks = static_cast<double>(differences.size());
+  if (blocks < minBlocks) return 1.0;
+  double sum = 0.0, squares = 0.0;
+  for (const double one : differences) sum += one;
+  for (const double one : differences) {
+    squares += (one - sum / blocks) * (one - sum / blocks);
+  }
+  const double variance = squares * blocks / (blocks - 1.0);
+  const double ratio = 2.0 * std::abs(sum) / std::max(variance, 1e-12);
+  const double byChance = 1.0 + std::sqrt(2.0 / blocks);
+  return ratio * byChance < 1.0 ? ratio : 1.0;
+}
+
 /// Looks at the ticks up to `reach` from the scoring's delay; the likelihood is taken to be
 /// negligible farther away.
-DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach) {
+DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach, bool amongOthers) {
   std::array<double, maxDelayTicks + 1> likelihood;
   likelihood.fill(-1e300);
+  std::array<std::vector<double>, maxDelayTicks + 1> blocks;
   DelayPosterior out;
   const int middle = static_cast<int>(std::lround(scoring.delay / tick));
   const int first = std::max(0, middle - reach), last = std::min(maxDelayTicks, middle + reach);
@@ -329,10 +381,20 @@ DelayPosterior delayPosterior(Scoring& scoring, double prior, int reach) {
   for (int d = first; d <= last; ++d) {
     // Other delays give other measurements their turn first: decisions are made again for each.
     scoring.decideAnew();
-    likelihood[static_cast<std::size_t>(d)] = scoring.logPosterior(scoring.logs, d * tick);
-    if (likelihood[static_cast<std::size_t>(d)] > likelihood[static_cast<std::size_t>(out.best)]) {
-      out.best = d;
-    }
+    const auto k = static_cast<std::size_t>(d);
+    blocks[k] = scoring.blockLogs(d * tick);
+    const double sum = std::accumulate(blocks[k].begin(), blocks[k].end(), 0.0);
+    if (std::isfinite(sum)) likelihood[k] = sum;
+    if (likelihood[k] > likelihood[static_cast<std::size_t>(out.best)]) out.best = d;
+  }
+  const auto best = static_cast<std::size_t>(out.best);
+  for (int d = first; amongOthers && d <= last; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    if (k == best) continue;
+    std::vector<double> differences(blocks[k].size());
+    std::ranges::transform(blocks[k], blocks[best], differences.begin(), std::minus<>());
+    likelihood[k] = likelihood[best] + effectiveShare(differences) / (weakTouches * weakTouches) *
+                                           (likelihood[k] - likelihood[best]);
   }
   constexpr int perTick = 40;
   constexpr double cell = tick / perTick;
@@ -491,14 +553,6 @@ std::array<GridPosterior, motionParameterCount> marginals(
   return out;
 }
 
-/// Whether something that it did not see moved it, or somebody else the ball.
-bool othersTookPart(std::span<const MotionFilter> filters) {
-  return std::ranges::any_of(filters, [](const MotionFilter& one) {
-    const auto isSet = [](bool row) { return row; };
-    return std::ranges::any_of(one.pushed(), isSet) || std::ranges::any_of(one.ballMoves(), isSet);
-  });
-}
-
 }  // namespace
 
 MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const CalibrationLog> logs,
@@ -514,7 +568,7 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
     if (round > 0) scoring.startAnew(knownSpeed);
     const double part = 0.25 * round;
     if (!scoring.search(nearEnough, [&] { return goOn(part); })) return fit;
-    delay = delayPosterior(scoring, prior, round == 0 ? maxDelayTicks : 4);
+    delay = delayPosterior(scoring, prior, round == 0 ? maxDelayTicks : 4, othersTookPart(filters));
     const double best = delay.best * tick;
     if (round > 0 && best == scoring.delay) break;
     scoring.delay = best;
@@ -552,7 +606,9 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
   for (std::size_t i = 0; i < fit.marginals.size(); ++i) {
     const double factor = excess[static_cast<Eigen::Index>(i)];
     GridPosterior& one = fit.marginals[i];
-    one.low = one.median - factor * (one.median - one.low);
+    const bool isGait = i == motionNoiseForward || i == motionNoiseSideways;
+    const double down = isGait && othersTookPart(filters) ? touchedNoise : 1.0;
+    one.low = one.median - down * factor * (one.median - one.low);
     one.high = one.median + factor * (one.high - one.median);
     fit.information[i] = 1.0 - factor * factor * (1.0 - fit.information[i]);
   }

@@ -53,6 +53,10 @@ PB_API pb_status pb_session_close(pb_session* session);
  *  `attributes`, and `columns` with `name`, `type` (pb_type), `unit`, `category`, `kind` ("number",
  *  "flag", "enumeration" or "text") and `labels`, the texts of its codes. */
 PB_API pb_status pb_session_describe(pb_session* session, pb_data** data);
+/** Finds the group with this name, or the one that had it earlier: a referee corrects colours, and
+ * a setup gives robots other names. Writes its index. PB_NOT_FOUND if there is none,
+ *  PB_INVALID_ARGUMENT if several groups had the name. */
+PB_API pb_status pb_session_group(pb_session* session, const char* name, int32_t* group);
 /** Reads the events in a closed range of time (s): array 0 is a JSON list (PB_CHARS), with the keys
  *  of docs/sessions.md. Events that were undone are left out. */
 PB_API pb_status pb_session_events(pb_session* session, double begin, double end, pb_data** data);

@@ -286,6 +286,19 @@ pb_status pb_session_describe(pb_session* session, pb_data** data) {
   });
 }
 
+pb_status pb_session_group(pb_session* session, const char* name, std::int32_t* group) {
+  return guarded([&] {
+    if (name == nullptr) return missing("name");
+    if (group == nullptr) return missing("group");
+    return withHandle(sessionHandles(), session, "session", [&](const LockedSession& found) {
+      const auto groups = found.reader.groupsNamed(name);
+      if (!groups) return reportStatus(tl::unexpected(groups.error()));
+      *group = static_cast<std::int32_t>(groups->front());
+      return reportStatus(PB_OK, "");
+    });
+  });
+}
+
 pb_status pb_session_events(pb_session* session, double begin, double end, pb_data** data) {
   return readSession(session, data, [&](const SessionReader& reader) -> Result<DataParts> {
     const TimeRange range = TRY(rangeOf(begin, end));

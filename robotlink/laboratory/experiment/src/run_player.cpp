@@ -16,7 +16,7 @@
 #include <robotlink/experiment/experiment_folder.h>
 #include <robotlink/match/match_player.h>
 #include <robotlink/session/match_recorder.h>
-#include <telemetry/wire/live_clock.h>
+#include <telemetry/sockets/live_clock.h>
 
 #include "rule_counter.h"
 #include "run_layout.h"

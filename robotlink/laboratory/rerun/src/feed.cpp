@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <base/wildcard.h>
+#include <robotlink/blackboard/cycle_words.h>
 #include <robotlink/cognition/process_registry.h>
 #include <robotlink/live/board_columns.h>
 
@@ -42,6 +43,7 @@ Feed::Feed(const VariableCatalog& catalog, std::span<const std::string> processe
            std::span<const std::string> patterns) {
   const VariableMeanings& meanings = VariableMeanings::published();
   for (const Variable& variable : catalog.variables()) {
+    if (announcesCycles(variable)) continue;  // no value of the robot: see RecordedCycles
     const bool isInt = variable.type == VariableType::Int;
     Word one;
     one.variable = variable;
@@ -78,7 +80,8 @@ Feed::Feed(const VariableCatalog& catalog, std::span<const std::string> processe
       column.type = isInt ? telemetry::ColumnType::Int32 : telemetry::ColumnType::Float32;
       meanings.describe(column);
       one.isFlag = column.kind == telemetry::ColumnKind::Flag;
-      m_outputs.push_back({variable, std::move(column), false});
+      m_outputs.push_back(
+          {variable, std::move(column), false, writes ? one.writers.writer : one.writers.alsoBy});
       m_outputWords.push_back(m_words.size());
     }
     m_words.push_back(std::move(one));

@@ -63,6 +63,7 @@ class Feed {
     Variable variable;
     telemetry::ColumnInfo column;
     bool isRecorded = false;
+    std::string process;  ///< that writes it; empty: named by a pattern
   };
   /// Returns the variables that the chosen processes write.
   const std::vector<Output>& outputs() const { return m_outputs; }

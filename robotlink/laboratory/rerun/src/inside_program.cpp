@@ -21,6 +21,7 @@ ProcessOptions optionsOf(const RerunChoice& choice, const RerunRobot& robot) {
   options.team = static_cast<int>(robot.team);
   options.shirt = robot.shirt;
   options.keepsMemory = false;
+  options.teamChannel = robot.teamChannel;
   return options;
 }
 
@@ -42,6 +43,10 @@ class InsideProgram final : public RerunProgram {
     m_next = nextDueTick(m_process->period(), tick, m_tickRate);
     return {};
   }
+  Result<void> run(std::uint64_t, double seconds) override {
+    m_process->step(m_board, Clock{seconds});
+    return {};
+  }
   Result<void> changeSides(const RerunRobot& robot, std::uint64_t tick) override {
     return make(robot, tick);
   }
@@ -49,6 +54,7 @@ class InsideProgram final : public RerunProgram {
   Result<void> lookAfter(double, double) override { return {}; }
   bool inLockStep() const override { return true; }
   int turn() const override { return turnOf(m_choice.process); }
+  const std::string& process() const override { return m_choice.process; }
 
  private:
   const RerunChoice m_choice;

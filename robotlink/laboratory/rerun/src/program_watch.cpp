@@ -32,11 +32,29 @@ void addNeighbours(const fs::path& script, std::set<std::string>& files) {
   }
 }
 
+/// Whole profiles as the processes they consist of; none of one that cannot be read.
+std::vector<RerunProcess> eachProcess(std::span<const RerunProcess> processes) {
+  std::vector<RerunProcess> all;
+  for (const RerunProcess& process : processes) {
+    if (!process.name.empty()) {
+      all.push_back(process);
+      continue;
+    }
+    const auto runtime = runtimeChoiceFromText(process.program);
+    const auto profile = runtime ? loadRuntime(*runtime) : tl::unexpected(runtime.error());
+    if (!profile) continue;
+    for (const ProfileProcess& one : profile->processes) {
+      all.push_back({one.name, process.program});
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> programFiles(std::span<const RerunProcess> processes) {
   std::set<std::string> files;
-  for (const RerunProcess& process : processes) {
+  for (const RerunProcess& process : eachProcess(processes)) {
     const auto choice = rerunChoice(process, {});
     if (!choice || choice->isInside) continue;
     const std::string profile = process.program.substr(0, process.program.find(':'));

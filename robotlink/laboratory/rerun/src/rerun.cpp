@@ -5,6 +5,7 @@
 #include <set>
 
 #include <base/try.h>
+#include <robotlink/processes/runtime_profile.h>
 #include <telemetry/session/session_export.h>
 
 #include "rerun_run.h"
@@ -22,14 +23,22 @@ std::uint64_t sumOver(const RerunResult& result, std::uint64_t ComparedVariable:
 
 Result<RerunProcess> rerunProcessFromText(std::string_view text) {
   const std::size_t equals = text.find('=');
+  // Names of processes have no colon; that of a profile may be followed by one and values.
+  const std::string_view name = text.substr(0, equals);
+  const bool isProfile = equals == std::string_view::npos
+                             ? text.ends_with(".json") || text == referenceRuntime
+                             : name.find(':') != std::string_view::npos;
+  if (isProfile) return RerunProcess{{}, std::string(text)};
   if (equals == 0 || equals == std::string_view::npos || equals + 1 == text.size()) {
-    return failure(ErrorCode::ParseError,
-                   "\"" + std::string(text) +
-                       "\" does not have the form PROCESS=PROGRAM; write for example "
-                       "decision=./decide.py or decision=reference",
-                   "--process");
+    return failure(
+        ErrorCode::ParseError,
+        "\"" + std::string(text) +
+            "\" does not have the form PROCESS=PROGRAM; write for example "
+            "decision=./decide.py or decision=reference, or name a runtime profile, such "
+            "as team.json, to run all of its processes",
+        "--process");
   }
-  return RerunProcess{std::string(text.substr(0, equals)), std::string(text.substr(equals + 1))};
+  return RerunProcess{std::string(name), std::string(text.substr(equals + 1))};
 }
 
 std::uint64_t RerunResult::compared() const {

@@ -133,13 +133,6 @@ Result<RerunChoice> rerunChoice(const RerunProcess& process, const RerunRobot& r
     choice.hasBehaviour = true;
   }
   if (choice.isInside) {
-    const std::string_view more = findProcess(process.name)->receives;
-    if (!more.empty()) {
-      return failure(ErrorCode::Unsupported,
-                     process.name + " also gets " + std::string(more) +
-                         ", which no recording of variables has, so it cannot run again.",
-                     "--process");
-    }
     if (process.name == "decision" && !choice.hasBehaviour && !findBehaviour(robot.behaviour)) {
       return failure(ErrorCode::InvalidArgument,
                      "The recording does not say which behaviour this robot had; name one, for "

@@ -32,13 +32,18 @@ struct RerunRobot {
   sim::RobotModel model;
   std::uint64_t seed = 1;
   std::optional<bool> facesLeft;
+  std::shared_ptr<TeamChannel> teamChannel{};  ///< team: where messages come from
 };
 
 class RerunProgram {
  public:
   virtual ~RerunProgram() = default;
+  /// Waits until it can run; called once, after all programs of the robot were started.
+  virtual Result<void> awaitReady() { return {}; }
   /// Its turn in a tick. Fails if the program died or does not answer.
   virtual Result<void> cycle(std::uint64_t tick) = 0;
+  /// A cycle of it, whether it is due or not, at this second of the recording.
+  virtual Result<void> run(std::uint64_t tick, double seconds) = 0;
   /// Called when the robot has changed its direction of attack.
   virtual Result<void> changeSides(const RerunRobot& robot, std::uint64_t tick) = 0;
   /// Returns the largest speed (times real time; 0: unlimited) that it allows now.
@@ -49,6 +54,8 @@ class RerunProgram {
   virtual bool inLockStep() const = 0;
   /// Returns the process's turn in a tick (feed.h).
   virtual int turn() const = 0;
+  /// Returns the name of the process.
+  virtual const std::string& process() const = 0;
 };
 
 /// How a process is to run, from the text behind "decision=".
@@ -79,10 +86,21 @@ Result<std::unique_ptr<RerunProgram>> insideProgram(const RerunChoice& choice,
                                                     double tickRate, std::uint64_t tick,
                                                     bool resumes);
 
-/// Starts a separate program and waits until it has attached to the blackboard.
-Result<std::unique_ptr<RerunProgram>> separateProgram(
-    const RerunChoice& choice, const RerunRobot& robot, Blackboard& board,
-    const VariableCatalog& catalog, const std::string& robotProgram,
-    const std::function<bool()>& goesOn, const std::function<void(std::string)>& print);
+/// Where a separate program runs, and who is told of it.
+struct ProgramPlace {
+  Blackboard* board = nullptr;
+  const VariableCatalog* catalog = nullptr;
+  std::string robotProgram;  ///< empty: the one beside this program
+  /// The rerun waits for this program's cycles if it cooperates. Of several programs of a robot
+  /// only one does: they share the word.
+  bool mayCooperate = true;
+  std::function<bool()> goesOn;
+  std::function<void(std::string)> print;
+};
+
+/// Starts a separate program.
+Result<std::unique_ptr<RerunProgram>> separateProgram(const RerunChoice& choice,
+                                                      const RerunRobot& robot,
+                                                      const ProgramPlace& place);
 
 }  // namespace pitchboard::link

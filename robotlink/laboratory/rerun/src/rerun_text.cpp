@@ -308,7 +308,9 @@ Result<UnchangedRerun> unchangedFromJson(std::string_view json, std::string_view
 std::string unchangedPath(const std::string& session, const RerunOptions& options) {
   const std::filesystem::path path(session);
   std::string name = path.stem().string() + '.' + options.robot;
-  for (const RerunProcess& process : options.processes) name += '-' + process.name;
+  for (const RerunProcess& process : options.processes) {
+    name += '-' + (process.name.empty() ? std::string("all") : process.name);
+  }
   std::ranges::replace(name, '/', '_');
   return (path.parent_path() / (name + ".same.json")).string();
 }

@@ -25,31 +25,35 @@ constexpr double searchFactor = 2.0, fastestSearched = 1000.0;
 
 class SeparateProgram final : public RerunProgram {
  public:
-  SeparateProgram(RerunChoice choice, Blackboard& board, const std::string& robotProgram,
-                  std::function<bool()> goesOn, std::function<void(std::string)> print)
+  SeparateProgram(RerunChoice choice, const ProgramPlace& place)
       : m_choice(std::move(choice)),
-        m_board(board),
-        m_goesOn(std::move(goesOn)),
-        m_print(std::move(print)),
-        m_processes(robotProgram) {}
+        m_board(*place.board),
+        m_mayCooperate(place.mayCooperate),
+        m_goesOn(place.goesOn),
+        m_print(place.print),
+        m_processes(place.robotProgram.empty() ? besideTeamProgram("pitchboard-robot")
+                                               : place.robotProgram) {}
 
   Result<void> start(const RerunRobot& robot, const VariableCatalog& catalog);
+  Result<void> awaitReady() override;
   Result<void> cycle(std::uint64_t tick) override;
+  Result<void> run(std::uint64_t tick, double seconds) override;
   /// A team's program goes on, as on a real field.
   Result<void> changeSides(const RerunRobot&, std::uint64_t) override { return {}; }
   double allowedSpeed(double wanted) override;
   Result<void> lookAfter(double seconds, double speed) override;
   bool inLockStep() const override { return m_cooperates; }
   int turn() const override { return lastTurn; }
+  const std::string& process() const override { return name(); }
 
  private:
   Result<void> look();
-  Result<void> awaitAttached();
   tl::unexpected<Error> ended(const ProcessStatus& status) const;
   const std::string& name() const { return m_choice.process; }
 
   const RerunChoice m_choice;
   Blackboard& m_board;
+  const bool m_mayCooperate;
   const std::function<bool()> m_goesOn;
   const std::function<void(std::string)> m_print;
   ProcessManager m_processes;
@@ -67,7 +71,7 @@ Result<void> SeparateProgram::start(const RerunRobot& robot, const VariableCatal
     return failure(ErrorCode::NotFound, "\"" + cycle + "\" is not an int variable of this catalog",
                    "cycle");
   }
-  m_cycle = variable.value_or(IntVar{-1});
+  if (m_mayCooperate) m_cycle = variable.value_or(IntVar{-1});
   if (m_cycle.index >= 0) m_board.write(m_cycle, 0);
   const std::map<std::string, std::string> values{
       {"robot", std::to_string(robot.id.value)},
@@ -96,17 +100,17 @@ Result<void> SeparateProgram::start(const RerunRobot& robot, const VariableCatal
   const auto info = SystemVSegments::info(m_board.key());
   m_shmid = info ? info->shmid : -1;
   m_id = TRY(m_processes.add(managed, m_board, ProgramTime::now()));
-  return awaitAttached();
+  return {};
 }
 
-Result<void> SeparateProgram::awaitAttached() {
+Result<void> SeparateProgram::awaitReady() {
   const auto begin = ProgramTime::now();
   const auto patience = std::max(minPatienceToStart, ProgramSeconds(m_choice.responseTimeout));
   while (true) {
     TRY(look());
     // A program that cooperates says so before its first cycle; the others just attach.
     m_cooperates = m_cycle.index >= 0 && m_board.read(m_cycle) < 0;
-    const bool expects = !m_choice.cycle.empty();
+    const bool expects = m_mayCooperate && !m_choice.cycle.empty();
     if (m_cooperates || (!expects && m_processes.hasSegment(m_id, m_shmid))) break;
     if (!m_goesOn()) return failure(ErrorCode::Conflict, "Cancelled.");
     if (ProgramTime::now() - begin > patience) {
@@ -185,6 +189,13 @@ Result<void> SeparateProgram::cycle(std::uint64_t tick) {
   return {};
 }
 
+/// Two cycles may lie within a tick, but each has a number of its own.
+Result<void> SeparateProgram::run(std::uint64_t tick, double /*seconds*/) {
+  if (!m_cooperates) return {};
+  const int done = -m_board.read(m_cycle);
+  return cycle(std::max(tick, static_cast<std::uint64_t>(std::max(done, 0)) + 1));
+}
+
 /// As fast as possible begins at ×1 and doubles as long as the program keeps up.
 double SeparateProgram::allowedSpeed(double wanted) {
   if (m_cooperates) return wanted;
@@ -214,14 +225,11 @@ Result<void> SeparateProgram::lookAfter(double seconds, double speed) {
 
 }  // namespace
 
-Result<std::unique_ptr<RerunProgram>> separateProgram(
-    const RerunChoice& choice, const RerunRobot& robot, Blackboard& board,
-    const VariableCatalog& catalog, const std::string& robotProgram,
-    const std::function<bool()>& goesOn, const std::function<void(std::string)>& print) {
-  auto program = std::make_unique<SeparateProgram>(
-      choice, board, robotProgram.empty() ? besideTeamProgram("pitchboard-robot") : robotProgram,
-      goesOn, print);
-  TRY(program->start(robot, catalog));
+Result<std::unique_ptr<RerunProgram>> separateProgram(const RerunChoice& choice,
+                                                      const RerunRobot& robot,
+                                                      const ProgramPlace& place) {
+  auto program = std::make_unique<SeparateProgram>(choice, place);
+  TRY(program->start(robot, *place.catalog));
   return program;
 }
 

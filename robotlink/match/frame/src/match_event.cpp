@@ -84,6 +84,8 @@ constexpr std::array<MatchEventInfo, matchEventKindCount> infos{{
     {Kind::Undone, "undone", "decision undone", Shape::None, 0, false, false, "referee"},
     {Kind::Bookmark, "bookmark", "bookmark", Shape::Bookmark, 10, true, false, "studio"},
     {Kind::Other, "warning", "warning", Shape::Warning, 5, false, true, "session"},
+    {Kind::RuleBroken, "rule", "broke a rule", Shape::Warning, 3, false, true, "rules"},
+    {Kind::Note, "note", "note", Shape::Bookmark, 10, true, false, "studio"},
 }};
 
 constexpr bool inOrder() {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <telemetry/wire/team_setup.h>
+#include <telemetry/monitor/team_setup.h>
 
 namespace pitchboard::link {
 namespace {

@@ -64,7 +64,7 @@ void FrameBuilder::fill(SimulatedMatch& match, Time now, bool still, MatchFrame&
   }
   const auto& claim = match.robots().claim();
   out.matchNumber = claim ? std::optional(claim->number().value) : std::nullopt;
-  out.inLockStep = match.pace().inLockStep();
+  out.inLockStep = match.pace().waitsForProcesses();
   out.slowestTeamProgram = match.pace().slowestTeamProgram();
   const ProcessPace::Wait* wait = still ? nullptr : match.pace().waitedFor(now);
   const auto late = wait != nullptr ? simulation.indexOf(wait->robot) : std::nullopt;
@@ -140,7 +140,9 @@ void FrameBuilder::fillRobot(const SimulatedMatch& match, RobotFrame& out) {
     return value ? std::optional(meantBy(meaning, *value)) : std::nullopt;
   };
   out.boardKey = board->key();
-  out.behaviour = match.robots().find(out.slot())->behaviour;
+  const RobotSlot& slot = *match.robots().find(out.slot());
+  out.behaviour = slot.behaviour;
+  out.programs = slot.programs;
   out.lamps = m_lamps[out.slot()].note(reader, m_playing);
   buildRobot(reader, match.simulation().state().settings.field,
              batteryLimitsOf(*match.robots().model(out.slot())), true, out);

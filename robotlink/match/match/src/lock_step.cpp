@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <thread>
 
+#include <robotlink/processes/lock_step_orders.h>
+
 #include "match_base.h"
 
 namespace pitchboard::link {
@@ -66,6 +68,12 @@ void LockStep::jump() {
   }
 }
 
+void LockStep::beginAnew(const RobotSlot& slot) {
+  for (const auto& process : slot.processes) {
+    if (process->isSeparateReference()) m_anew.insert(process->id);
+  }
+}
+
 void LockStep::planNext(SlotProcess& process) const {
   process.nextTick = nextDueTick(process.period, m_base.tick(), m_base.tickRate());
 }
@@ -84,6 +92,7 @@ bool LockStep::dueNow(SlotProcess& process, std::optional<double> period) const 
 void LockStep::startCycle(RobotSlot& slot, SlotProcess& process, bool lockStep) {
   std::vector<std::string> messages;
   if (lockStep && isTeam(process)) messages = m_slots.teamChannel(slot.id)->take(slot.id);
+  if (m_anew.erase(process.id) > 0) messages.emplace(messages.begin(), beginAnewOrder);
   m_slots.lockStepSlots()->startCycle(process.lockStepSlot,
                                       static_cast<double>(m_base.tick()) / m_base.tickRate(),
                                       lockStep, messages);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 
 #include <robotlink/match/process_pace.h>
 #include <robotlink/match/robot_slots.h>
@@ -25,6 +26,9 @@ class LockStep {
   void run();
   /// Another moment was put back: what is due follows the simulation's time.
   void jump();
+  /// The robot's separate processes begin anew in their next cycle, with what stands on its
+  /// blackboard.
+  void beginAnew(const RobotSlot& slot);
 
  private:
   void runCycles();
@@ -39,6 +43,7 @@ class LockStep {
   RobotSlots& m_slots;
   ProcessPace& m_pace;
   CycleWait m_cycles;
+  std::set<int> m_anew;  // processes that begin anew, by their ids
 };
 
 }  // namespace pitchboard::link

@@ -7,8 +7,8 @@
 #include <base/angles.h>
 #include <base/try.h>
 #include <robotlink/match/referee_packet.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
-#include <telemetry/wire/socket_address.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
+#include <telemetry/sockets/socket_address.h>
 
 namespace pitchboard::link {
 namespace {

@@ -14,9 +14,9 @@
 #include <base/result.h>
 #include <robotlink/match/robots_memory.h>
 #include <simcore/simulation/simulation.h>
-#include <telemetry/wire/referee_tracker.h>
-#include <telemetry/wire/udp_receiver.h>
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/referee/referee_tracker.h>
+#include <telemetry/sockets/udp_receiver.h>
+#include <telemetry/sockets/udp_sender.h>
 
 namespace pitchboard::link {
 

@@ -21,6 +21,15 @@ bool ProcessPace::inLockStep() const {
   return robotsPace == RobotsPace::LockStep || m_still || m_speed != 1.0;
 }
 
+bool ProcessPace::waitsForProcesses() const {
+  return std::ranges::any_of(m_slots.all(), [this](const auto& slot) {
+    return slot->cooperates ||
+           (inLockStep() && std::ranges::any_of(slot->processes, [](const auto& process) {
+              return process->isSeparateReference();
+            }));
+  });
+}
+
 void ProcessPace::lookAfterProcesses(Time now) {
   ProcessManager& processes = m_slots.processes();
   (void)processes.step(now);

@@ -8,7 +8,7 @@
 #include <robotlink/scenario/referee_rule_sets.h>
 #include <simcore/rules/game_start.h>
 #include <simcore/rules/referee.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 namespace pitchboard::link {
 namespace {

@@ -470,6 +470,14 @@ Result<void> RobotSlots::startMissing(RobotSlot& slot, std::vector<SlotProcess*>
     started.push_back(process.get());
     TRY(start(slot, *process));
   }
+  slot.programs.clear();
+  for (const auto& process : slot.processes) {
+    const ProcessStatus* status = m_processes->status(process->id);
+    if (status == nullptr || !status->isTeamProgram) continue;
+    const std::string program = status->program();
+    if (std::ranges::find(slot.programs, program) == slot.programs.end())
+      slot.programs.push_back(program);
+  }
   return {};
 }
 

@@ -183,8 +183,9 @@ const FollowState& SimulatedMatch::followState() const {
   return m_parts->following.state();
 }
 
-/// Robots that followed go on by themselves, from where they stand: their processes have seen
-/// motions that they did not command.
+/// Robots that followed go on by themselves, from where they stand: our processes, which have seen
+/// motions that they did not command, are told. A team's own programs go on: they find out as on a
+/// real field when somebody carries the robot.
 void SimulatedMatch::Parts::letGo() {
   events.letGo(following.state());
   for (const FollowedRobot& robot : following.recording()->robots) {
@@ -194,6 +195,7 @@ void SimulatedMatch::Parts::letGo() {
     writeBelief({*base.simulation.robotPose(robot.id), sigma}, base.scenario.settings.field,
                 base.variables, slot->board);
     startAnew(*slot);
+    lockStep.beginAnew(*slot);
   }
 }
 

@@ -5,7 +5,7 @@
 
 #include <resources/resources.h>
 #include <simcore/world/referee_parameters.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 #include "referee_rules_json.h"
 #include "scenario_keys.h"

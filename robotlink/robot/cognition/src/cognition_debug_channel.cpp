@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <base/system_reason.h>
-#include <telemetry/wire/socket_address.h>
+#include <telemetry/sockets/socket_address.h>
 
 namespace pitchboard::link {
 namespace {

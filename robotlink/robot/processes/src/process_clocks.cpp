@@ -13,7 +13,7 @@
 
 namespace pitchboard::link {
 
-std::string ProcessStatus::program() const {
+std::string programOf(const std::vector<std::string>& command) {
   if (command.empty()) return {};
   const auto file = [](const std::string& path) {
     return std::filesystem::path(path).filename().string();

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include <base/try.h>
 #include <robotlink/frame/join_boards.h>
+#include <robotlink/import/opened_recordings.h>
 #include <robotlink/live/live_events.h>
 #include <robotlink/live/live_pipeline.h>
 #include <robotlink/live/topic_groups.h>
@@ -14,8 +16,8 @@
 #include <robotlink/live/topic_robots.h>
 #include <robotlink/session/live_recorder.h>
 #include <robotlink/session/session_events.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/session/session_writer.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
 
 namespace pitchboard::link {
 namespace {
@@ -23,7 +25,6 @@ namespace {
 using telemetry::Duration;
 using telemetry::RecordedItem;
 using telemetry::RecordedMessage;
-using telemetry::RecordingReader;
 using telemetry::WallTime;
 
 constexpr double robotTimeout = 2.0;  // s; then a robot is offline
@@ -47,30 +48,24 @@ class PipelineRecords : public LiveRecords {
   telemetry::SessionWriter& m_writer;
 };
 
-/// One of the recordings that are imported together.
-struct ImportSource {
-  std::unique_ptr<RecordingReader> reader;
-  RecordedItem item = RecordedItem::End;
-  StampChoice stamps;     ///< with ImportClock::Auto
-  std::int64_t time = 0;  ///< of the item, ns
-};
-
 class SessionImport {
  public:
-  SessionImport(std::vector<std::unique_ptr<RecordingReader>> readers, const ImportOptions& options)
-      : m_options(options) {
-    for (auto& reader : readers) m_sources.push_back({std::move(reader), RecordedItem::End, {}, 0});
+  SessionImport(std::vector<OpenedRecording> sources, const ImportOptions& options)
+      : m_options(options), m_sources(std::move(sources)) {
+    for (OpenedRecording& source : m_sources) {
+      if (options.clock != RecordingClock::Auto) source.timing.clock = options.clock;
+    }
   }
 
   Result<ImportReport> run(const std::string& path, const std::string& title,
                            const std::function<bool(double)>& progress) {
     TRY(chooseMapping());
-    for (ImportSource& source : m_sources) TRY(step(source));
-    if (nextSource() == nullptr) return nothing();
+    for (OpenedRecording& source : m_sources) TRY(source.step());
+    if (earliestOf(m_sources) == nullptr) return nothing();
     TRY(begin(path, title));
-    while (ImportSource* source = nextSource()) {
+    while (OpenedRecording* source = earliestOf(m_sources)) {
       takeItem(*source);
-      TRY(step(*source));
+      TRY(source->step());
       if (m_report.messages % itemsBetweenReports == 0 && progress && !progress(share())) {
         return failure(ErrorCode::Conflict, "The import was stopped. Nothing was written.");
       }
@@ -82,7 +77,7 @@ class SessionImport {
  private:
   Result<ImportReport> nothing() {
     std::string why = "Nothing in the recording can be imported.";
-    for (const ImportSource& source : m_sources) {
+    for (const OpenedRecording& source : m_sources) {
       for (const std::string& note : source.reader->notes()) {
         if (why.size() < 2000) why += "\n  " + note;
       }
@@ -94,12 +89,7 @@ class SessionImport {
     if (m_options.mapping) {
       m_mapping = *m_options.mapping;
     } else {
-      std::vector<telemetry::RecordedTopic> topics;
-      for (const ImportSource& source : m_sources) {
-        const auto& own = source.reader->topics();
-        topics.insert(topics.end(), own.begin(), own.end());
-      }
-      m_mapping = builtInMapping(topics);
+      m_mapping = builtInMapping(topicsOf(m_sources));
     }
     if (!m_mapping.field.empty()) m_field = TRY(sim::fieldByName(m_mapping.field));
     m_log.emplace(m_mapping);
@@ -107,36 +97,9 @@ class SessionImport {
     return {};
   }
 
-  Result<void> step(ImportSource& source) {
-    source.item = TRY(source.reader->next());
-    if (source.item == RecordedItem::Message) {
-      source.time = timeOf(source, source.reader->message());
-    } else if (source.item == RecordedItem::Datagram) {
-      source.time = source.reader->datagram().time;
-    }
-    return {};
-  }
-
-  std::int64_t timeOf(ImportSource& source, const RecordedMessage& message) const {
-    if (m_options.clock == ImportClock::Log || !message.stamp || *message.stamp <= 0) {
-      return message.logTime;
-    }
-    if (m_options.clock == ImportClock::Header) return *message.stamp;
-    return source.stamps.timeOf(message);
-  }
-
-  ImportSource* nextSource() {
-    ImportSource* next = nullptr;
-    for (ImportSource& source : m_sources) {
-      if (source.item == RecordedItem::End) continue;
-      if (next == nullptr || source.time < next->time) next = &source;
-    }
-    return next;
-  }
-
   double share() const {
     double sum = 0.0;
-    for (const ImportSource& source : m_sources) sum += source.reader->progress();
+    for (const OpenedRecording& source : m_sources) sum += source.reader->progress();
     return sum / static_cast<double>(m_sources.size());
   }
 
@@ -148,7 +111,7 @@ class SessionImport {
   }
 
   Result<void> begin(const std::string& path, const std::string& title) {
-    const std::int64_t first = nextSource()->time;
+    const std::int64_t first = earliestOf(m_sources)->time;
     m_zero = first >= 0 && first < firstClockTime ? 0 : first;
     telemetry::SessionInfo info;
     info.program = m_options.program;
@@ -160,8 +123,8 @@ class SessionImport {
     telemetry::SessionWriterOptions writing;
     writing.waitWhenFull = true;
     writing.sync = false;
-    writing.level = 1;
-    writing.chunkBytes = std::size_t{4} << 20;
+    writing.level = telemetry::McapWriterOptions::plainChunks;
+    writing.chunkBytes = std::size_t{1} << 20;
     m_writer = TRY(telemetry::SessionWriter::create(path, info, writing));
     m_groups.emplace(*m_writer, [this](const LogLine& line) { m_writer->append(line); });
     TopicRobots::Options robots;
@@ -172,7 +135,7 @@ class SessionImport {
     return {};
   }
 
-  void takeItem(ImportSource& source) {
+  void takeItem(OpenedRecording& source) {
     ++m_report.messages;
     m_now = std::max(m_now, secondsOf(source.time));
     m_first = m_first.value_or(m_now);
@@ -296,7 +259,7 @@ class SessionImport {
     m_report.seconds = m_now - m_first.value_or(m_now);
     m_report.robots = m_robots->names();
     std::vector<std::string>& notes = m_report.notes;
-    for (const ImportSource& source : m_sources) {
+    for (const OpenedRecording& source : m_sources) {
       for (std::string& note : source.reader->notes()) notes.push_back(std::move(note));
       if (source.stamps.usesStamps() == false) {
         notes.push_back(
@@ -322,7 +285,7 @@ class SessionImport {
   }
 
   const ImportOptions& m_options;
-  std::vector<ImportSource> m_sources;
+  std::vector<OpenedRecording> m_sources;
   TopicMapping m_mapping;
   sim::FieldSpec m_field;
   std::optional<TopicLog> m_log;
@@ -365,6 +328,12 @@ std::string ImportReport::summary() const {
   return text;
 }
 
+std::string mappingBeside(const std::string& recording) {
+  const std::filesystem::path whole(recording);
+  const std::filesystem::path plain = whole.has_filename() ? whole : whole.parent_path();
+  return (plain.parent_path() / plain.stem()).string() + ".mapping.json";
+}
+
 Result<ImportReport> importRecordings(const std::vector<std::string>& files,
                                       const std::string& output, const ImportOptions& options,
                                       const std::function<bool(double)>& progress) {
@@ -377,11 +346,18 @@ Result<ImportReport> importRecordings(const std::vector<std::string>& files,
                      "The session would replace its own recording. Choose another name.", output);
     }
   }
+  ImportOptions used = options;
+  const std::string beside = mappingBeside(files.front());
+  std::error_code problem;
+  const bool usesBeside = !used.mapping && std::filesystem::exists(beside, problem);
+  if (usesBeside) used.mapping = TRY(mappingFromFile(beside));
   auto target = TRY(FileTarget::at(output, options.ifExists, files.front()));
-  auto readers = TRY(telemetry::openRecordings(files, progress));
-  auto report = TRY(SessionImport(std::move(readers), options)
+  auto sources = TRY(openTogether(
+      files, used.mapping ? used.mapping->recordings : std::vector<MappedRecording>(), progress));
+  auto report = TRY(SessionImport(std::move(sources), used)
                         .run(target.partPath(), titleOf(files.front()), progress));
   TRY(target.commit());
+  if (usesBeside) report.notes.push_back("The mapping is that of " + beside + ".");
   return report;
 }
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include <base/base64.h>
 #include <base/duration_text.h>
 #include <robotlink/report/report_page.h>
 #include <robotlink/report/session_tally.h>
-#include <telemetry/wire/base64.h>
 
 #include "report_parts.h"
 
@@ -168,8 +168,7 @@ std::string picture(const ReportContent& c) {
   if (c.picture.empty()) return {};
   const bool png = c.picture.starts_with("\x89PNG");
   return "<h2>Field</h2>\n<figure><img alt=\"The field\" src=\"data:image/" +
-         std::string(png ? "png" : "svg+xml") + ";base64," + telemetry::toBase64(c.picture) +
-         "\">" +
+         std::string(png ? "png" : "svg+xml") + ";base64," + toBase64(c.picture) + "\">" +
          (c.pictureCaption.empty() ? ""
                                    : "<figcaption>" + escaped(c.pictureCaption) + "</figcaption>") +
          "</figure>\n";

@@ -10,6 +10,8 @@
 #include <robotlink/match/simulated_match.h>
 #include <robotlink/session/session_events.h>
 #include <simcore/simulation/simulation.h>
+#include <telemetry/series/losable.h>
+#include <telemetry/session/row_topic.h>
 #include <telemetry/session/session_reader.h>
 
 #include "scene_json.h"
@@ -42,11 +44,6 @@ FoxgloveChannel jsonChannel(std::uint32_t id, std::string topic, std::string sch
   return {id, std::move(topic), "json", std::move(schemaName), std::move(schema), "jsonschema"};
 }
 
-/// The same as in session files.
-std::string topicOf(const GroupInfo& group) {
-  return group.name == "match" ? "/match/row" : "/robots/" + group.name + "/row";
-}
-
 std::string schemaOf(const GroupInfo& group) {
   Json properties{{"time", {{"type", "number"}, {"description", "s of the source"}}}};
   for (const ColumnInfo& column : group.columns) {
@@ -71,7 +68,41 @@ Json valueOf(const telemetry::Slot& slot, const RowView& row) {
   return std::isfinite(number) ? Json(number) : Json();
 }
 
+/// A row that outlives the call that brought it.
+struct KeptRow {
+  double time;
+  std::vector<std::uint32_t> words;
+  std::vector<double> values;
+  explicit KeptRow(const RowView& row)
+      : time(row.time),
+        words(row.words.begin(), row.words.end()),
+        values(row.values.begin(), row.values.end()) {}
+  RowView view() const { return {time, words, values}; }
+};
+
 }  // namespace
+
+/// What the columns of a group are called, and where their values stand in a row.
+struct ServedMatch::Columns {
+  explicit Columns(const GroupInfo& info)
+      : places(telemetry::slotsOf(info.columns)), losable(telemetry::losableColumns(info)) {
+    for (const ColumnInfo& column : info.columns) names.push_back(column.name);
+  }
+  std::string json(const RowView& row) const {
+    Json json{{"time", row.time}};
+    auto rule = losable.begin();
+    for (std::size_t c = 0; c < places.size(); ++c) {
+      const bool isLosable = rule != losable.end() && rule->column == c;
+      const bool isLost = isLosable && rule->isLost(row);
+      if (isLosable) ++rule;
+      json[names[c]] = isLost ? Json() : valueOf(places[c], row);
+    }
+    return json.dump();
+  }
+  std::vector<std::string> names;
+  std::vector<telemetry::Slot> places;
+  std::vector<telemetry::Losable> losable;
+};
 
 std::function<std::uint64_t(double)> logTimesFrom(telemetry::WallTime start) {
   return [begin = static_cast<std::uint64_t>(start.time_since_epoch().count())](double seconds) {
@@ -100,24 +131,18 @@ GroupId ServedMatch::addGroup(const GroupInfo& info) {
   // A channel's id is not used again: who subscribed to "B1" must not get the rows of "R1".
   if (!isNew) m_server.unadvertise(group.channel);
   group.channel = m_nextChannel++;
-  group.places = telemetry::slotsOf(info.columns);
-  group.losable = telemetry::losableColumns(info);
-  m_server.advertise(jsonChannel(group.channel, topicOf(info), "pitchboard.Row", schemaOf(info)));
+  group.columns = std::make_shared<const Columns>(info);
+  m_server.advertise(
+      jsonChannel(group.channel, telemetry::rowTopic(info), "pitchboard.Row", schemaOf(info)));
   return static_cast<GroupId>(at);
 }
 
 void ServedMatch::append(GroupId id, const RowView& row) {
   if (id >= m_groups.size()) return;
   const Group& group = m_groups[id];
-  Json json{{"time", row.time}};
-  auto losable = group.losable.begin();
-  for (std::size_t c = 0; c < group.places.size(); ++c) {
-    const bool isLosable = losable != group.losable.end() && losable->column == c;
-    const bool isLost = isLosable && losable->isLost(row);
-    if (isLosable) ++losable;
-    json[group.info.columns[c].name] = isLost ? Json() : valueOf(group.places[c], row);
-  }
-  m_server.send(group.channel, m_logTime(row.time), json.dump(), true);
+  m_server.sendKept(
+      group.channel, m_logTime(row.time),
+      [columns = group.columns, kept = KeptRow(row)] { return columns->json(kept.view()); });
 }
 
 void ServedMatch::append(const telemetry::SessionEvent& event) {
@@ -139,7 +164,7 @@ void ServedMatch::append(const LogLine& line) {
 
 void ServedMatch::show(const MatchFrame& frame) {
   const std::uint64_t time = m_logTime(frame.snapshot.time);
-  m_server.send(fieldChannel, time, sceneJson(frame, time), true);
+  m_server.sendKept(fieldChannel, time, [frame, time] { return sceneJson(frame, time); });
 }
 
 void ServedMatch::setTime(double time) {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <simcore/rules/referee.h>
-#include <telemetry/wire/gamecontroller_encoder.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 
 namespace pitchboard::link {
 namespace {

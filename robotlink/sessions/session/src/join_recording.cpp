@@ -2,76 +2,67 @@
 #include <robotlink/session/join_recording.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
+#include <functional>
 #include <limits>
 #include <utility>
 
 #include <base/file_target.h>
 #include <base/try.h>
+#include <robotlink/frame/match_event.h>
+#include <robotlink/live/robot_uids.h>
+#include <robotlink/session/match_recorder.h>
 #include <robotlink/session/row_slot.h>
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/session_writer.h>
 
 namespace pitchboard::link {
 namespace {
 
 constexpr double readAtOnce = 1.0;  // s of the recording that are in memory
+/// s without a row after which the robot did not record: the agent writes one every second.
+constexpr double recordingGap = 2.5;
 
-bool isBoard(const telemetry::GroupInfo& group) {
+bool isMessagesGroup(const telemetry::GroupInfo& group) {
   const telemetry::RobotFacts& facts = factsOf(group);
-  return facts.linkOf.empty() && (facts.attached || !facts.sentFrom.empty());
+  return facts.live && facts.linkOf.empty() && !isBoardGroup(group);
 }
 
-Result<telemetry::GroupId> recordedGroup(const telemetry::SessionReader& recording) {
-  const auto groups = recording.groups();
-  for (telemetry::GroupId id = 0; id < groups.size(); ++id) {
-    if (isBoard(groups[id].info)) return id;
-  }
-  return failure(ErrorCode::NotFound,
-                 "This is not the recording of a robot by pitchboard-agent --record: it has no "
-                 "blackboard.");
+/// The rows of a robot's blackboard beside its messages, named as Live names them.
+telemetry::GroupInfo boardBeside(const telemetry::GroupInfo& messages,
+                                 const telemetry::GroupInfo& recorded) {
+  telemetry::GroupInfo board{messages.name, {}, messages.robot};
+  telemetry::RobotFacts& facts = *board.robot;
+  facts.live = false;
+  facts.sentFrom = std::exchange(facts.sender, {});
+  facts.slot = factsOf(recorded).slot;
+  facts.timeout_s = factsOf(recorded).timeout_s;
+  board.id = groupId(facts.uid, RobotRows::Variables);
+  return board;
 }
 
-Result<telemetry::GroupId> robotOfSession(const telemetry::SessionReader& session,
-                                          const telemetry::GroupInfo& recorded,
-                                          const std::string& name) {
-  std::string names;
-  const auto groups = session.groups();
-  for (telemetry::GroupId id = 0; id < groups.size(); ++id) {
-    const telemetry::GroupInfo& group = groups[id].info;
-    if (!isBoard(group)) continue;
-    const bool isIt =
-        name.empty() ? factsOf(group).slot == factsOf(recorded).slot : name == group.name;
-    if (isIt) return id;
-    names += (names.empty() ? "" : ", ") + group.name;
-  }
-  const std::string robot = name.empty() ? recorded.name : name;
-  return failure(ErrorCode::NotFound,
-                 names.empty()
-                     ? "The session has no blackboard that a robot sent, so there is nothing to "
-                       "join to. Record it with pitchboard-agent running on the robot."
-                     : "The session has no blackboard of " + robot +
-                           ". Name the robot with "
-                           "--robot: " +
-                           names + ".");
+telemetry::GroupInfo besideBoard(telemetry::GroupInfo messages) {
+  messages.robot->linkOf = messages.name;
+  messages.name += " telemetry";
+  return messages;
 }
 
 /// Writes a session in which the rows of one robot are replaced while its own recording has rows.
 class Joiner {
  public:
-  Joiner(const telemetry::SessionReader& session, telemetry::GroupId robot,
-         const telemetry::SessionReader& recording, telemetry::GroupId recorded,
-         const ClockFit& clock, telemetry::SessionWriter& writer)
+  Joiner(const telemetry::SessionReader& session, const JoinTarget& target,
+         const RobotRecording& recording, const RobotClock& clock, telemetry::SessionWriter& writer)
       : m_session(session),
-        m_robot(robot),
+        m_target(target),
         m_recording(recording),
-        m_recorded(recorded),
         m_clock(clock),
         m_writer(writer) {
-    for (const telemetry::SessionGroup& group : session.groups()) {
-      m_ids.push_back(writer.addGroup(group.info));
+    for (telemetry::GroupId id = 0; id < session.groups().size(); ++id) {
+      const telemetry::GroupInfo& group = session.groups()[id].info;
+      const bool moves = id == target.group && !target.isBoard;
+      m_ids.push_back(writer.addGroup(moves ? besideBoard(group) : group));
     }
-    m_range = *recording.range();
+    m_range = recording.range();
     m_next = m_range.begin;
     mergeColumns();
   }
@@ -84,7 +75,7 @@ class Joiner {
           takeRecorded(item.time);
           if (!item.isRow) {
             m_writer.appendJson(item.stream, item.time, item.message->data);
-          } else if (item.group != m_robot || !isCovered(item.time)) {
+          } else if (item.group != m_target.group || !m_target.isBoard || !isCovered(item.time)) {
             m_writer.append(m_ids[item.group], item.row);
           } else {
             m_held.words.assign(item.row.words.begin(), item.row.words.end());
@@ -101,11 +92,11 @@ class Joiner {
   }
 
  private:
-  /// All columns of the recording, then those that only the session has.
+  /// All columns of the recording, then those that only the replaced rows have.
   void mergeColumns() {
-    const telemetry::GroupInfo& here = m_session.groups()[m_robot].info;
-    const telemetry::GroupInfo& there = m_recording.groups()[m_recorded].info;
-    telemetry::GroupInfo both = here;
+    const telemetry::GroupInfo& here = m_session.groups()[m_target.group].info;
+    const telemetry::GroupInfo& there = m_recording.group();
+    telemetry::GroupInfo both = m_target.isBoard ? here : boardBeside(here, there);
     both.columns.clear();
     for (const bool words : {true, false}) {
       const auto take = [&](const telemetry::GroupInfo& from, bool recorded) {
@@ -117,24 +108,33 @@ class Joiner {
         }
       };
       take(there, true);
-      take(here, false);
+      if (m_target.isBoard) take(here, false);
     }
     m_joined = m_writer.addGroup(both);
   }
 
-  bool isCovered(double time) const {
-    return time >= m_clock.toSession(m_range.begin) && time <= m_clock.toSession(m_range.end);
+  /// Whether the robot recorded at this time, until which everything recorded was taken.
+  bool isCovered(double time) {
+    if (!m_newest) return false;
+    if (time <= *m_newest) return true;
+    const auto next = nextTime();
+    return next && *next - *m_newest <= recordingGap;
+  }
+
+  /// Returns the time of the next recorded row in the session; nothing after the last one.
+  std::optional<double> nextTime() {
+    while (m_taken == m_block.size()) {
+      if (m_next > m_range.end) return {};
+      readBlock();
+    }
+    return m_clock.toSession(m_block[m_taken].time);
   }
 
   /// Writes the recorded rows until this time of the session.
   void takeRecorded(double until) {
-    for (;;) {
-      for (; m_taken < m_block.size(); ++m_taken) {
-        if (m_clock.toSession(m_block[m_taken].time) > until) return;
-        write(m_block[m_taken]);
-      }
-      if (m_next > m_range.end || m_clock.toSession(m_next) > until) return;
-      readBlock();
+    for (auto next = nextTime(); next && *next <= until; next = nextTime()) {
+      write(m_block[m_taken++]);
+      m_newest = *next;
     }
   }
 
@@ -142,8 +142,7 @@ class Joiner {
     m_block.clear();
     m_taken = 0;
     const double begin = std::exchange(m_next, m_next + readAtOnce);
-    const std::array<telemetry::GroupId, 1> only{m_recorded};
-    m_recording.rows({begin, m_next}, only, [&](telemetry::GroupId, const telemetry::RowView& row) {
+    m_recording.rows({begin, m_next}, [&](const telemetry::RowView& row) {
       // The last moment belongs to the next block.
       if (row.time >= m_next) return false;
       telemetry::SessionRow& kept = m_block.emplace_back();
@@ -172,19 +171,19 @@ class Joiner {
   }
 
   const telemetry::SessionReader& m_session;
-  const telemetry::GroupId m_robot;
-  const telemetry::SessionReader& m_recording;
-  const telemetry::GroupId m_recorded;
-  const ClockFit m_clock;
+  const JoinTarget m_target;
+  const RobotRecording& m_recording;
+  const RobotClock m_clock;
   telemetry::SessionWriter& m_writer;
   std::vector<telemetry::GroupId> m_ids;  // in the new file, of the session's groups
   telemetry::GroupId m_joined = 0;
   std::vector<std::pair<bool, RowSlot>> m_places;  // of the joined columns: of the recording?
   telemetry::TimeRange m_range;                    // of the recording
   std::vector<telemetry::SessionRow> m_block;
-  std::size_t m_taken = 0;       // rows of the block
-  double m_next = 0.0;           // where the next block begins
-  telemetry::SessionRow m_held;  // the newest row of the session
+  std::size_t m_taken = 0;         // rows of the block
+  double m_next = 0.0;             // where the next block begins
+  std::optional<double> m_newest;  // s of the session, of the newest recorded row
+  telemetry::SessionRow m_held;    // the newest row of the session
   std::vector<std::uint32_t> m_words;
   std::vector<double> m_values;
   std::uint64_t m_rows = 0;
@@ -200,40 +199,90 @@ Result<void> copyAttachments(const telemetry::SessionReader& from, telemetry::Se
 
 }  // namespace
 
+std::vector<JoinTarget> joinTargets(const telemetry::SessionReader& session,
+                                    const RobotRecording& recording) {
+  std::vector<JoinTarget> targets;
+  const int number = factsOf(recording.group()).slot;
+  const auto groups = session.groups();
+  for (const bool isBoard : {true, false}) {
+    for (telemetry::GroupId id = 0; id < groups.size(); ++id) {
+      const telemetry::GroupInfo& group = groups[id].info;
+      if (isBoard ? !isBoardGroup(group) : !isMessagesGroup(group)) continue;
+      const telemetry::RobotFacts& facts = factsOf(group);
+      targets.push_back({group.name, id, isBoard, (isBoard ? facts.slot : facts.number) == number});
+    }
+  }
+  std::ranges::stable_sort(targets, std::greater(), &JoinTarget::isProposed);
+  return targets;
+}
+
+Result<ComparedTarget> compareTarget(const telemetry::SessionReader& session,
+                                     const RobotRecording& recording, const std::string& robot,
+                                     const std::function<bool()>& goesOn) {
+  const std::vector<JoinTarget> targets = joinTargets(session, recording);
+  const std::string& sessionName = session.file().contents().name;
+  if (targets.empty()) {
+    return failure(ErrorCode::NotFound,
+                   "The session has no blackboard and no messages of a live robot, so there is "
+                   "nothing to join to.",
+                   sessionName);
+  }
+  std::optional<ComparedTarget> best;
+  double most = -1.0;
+  std::string names;
+  for (const JoinTarget& target : targets) {
+    names += (names.empty() ? "" : ", ") + target.robot;
+    if (robot.empty() ? !target.isProposed : robot != target.robot) continue;
+    // A robot's blackboard tells more than the messages of another one with its number.
+    if (best && best->target.isBoard && !target.isBoard && best->fit) continue;
+    ComparedTarget compared{
+        target, TRY(ClockComparison::read(session, target.group, recording, goesOn)), ClockFit{}};
+    compared.fit = compared.comparison.fit();
+    const double share =
+        compared.fit ? compared.comparison.agreement(compared.fit->clock).share() : 0.0;
+    if (share <= most) continue;
+    most = share;
+    best.emplace(std::move(compared));
+  }
+  if (best) return *std::move(best);
+  return failure(ErrorCode::NotFound,
+                 "The session has no " +
+                     (robot.empty() ? "robot " + std::to_string(factsOf(recording.group()).slot)
+                                    : "rows of " + robot) +
+                     ". Name the robot with --robot: " + names + ".",
+                 sessionName);
+}
+
 std::string JoinReport::summary() const {
   char text[240];
-  std::snprintf(text, sizeof text,
-                "%s: %llu rows of its own recording replace %llu; offset %+.3f s, drift %+.1f ppm",
-                robot.c_str(), static_cast<unsigned long long>(rows),
-                static_cast<unsigned long long>(replaced), clock.offset, clock.drift * 1e6);
+  std::snprintf(text, sizeof text, "%s: %llu rows of its own recording", robot.c_str(),
+                static_cast<unsigned long long>(rows));
   std::string out = text;
-  if (clock.changes == 0) return out + " (as given)";
-  std::snprintf(text, sizeof text, " (%zu changes fit, residual %.1f ms)", clock.changes,
-                clock.residual * 1e3);
-  return out + text;
+  if (files > 1) out += " (" + std::to_string(files) + " files)";
+  out += replaced > 0 ? " replace " + std::to_string(replaced) : " stand beside its messages";
+  std::snprintf(text, sizeof text, "; offset %+.3f s, drift %+.1f ppm", clock.offset,
+                clock.drift * 1e6);
+  return out + text + (fit ? " (" : " (as given; ") + agreement.text() + ')';
 }
 
 Result<JoinReport> joinRecording(const std::string& sessionPath, const std::string& recordingPath,
                                  const std::string& output, const JoinOptions& options,
                                  const std::function<bool(double)>& progress) {
   const auto session = TRY(telemetry::SessionReader::open(sessionPath));
-  const auto recording = TRY(telemetry::SessionReader::open(recordingPath));
-  const auto inFile = [](Error error, const std::string& path) {
-    error.context = path;
-    return tl::unexpected(std::move(error));
-  };
-  const auto recorded = recordedGroup(recording);
-  if (!recorded) return inFile(recorded.error(), recordingPath);
-  const auto robot = robotOfSession(session, recording.groups()[*recorded].info, options.robot);
-  if (!robot) return inFile(robot.error(), sessionPath);
+  const auto recording = TRY(RobotRecording::open(recordingPath));
+  const auto goesOn = [&progress] { return !progress || progress(0.0); };
+  const ComparedTarget compared = TRY(compareTarget(session, recording, options.robot, goesOn));
   JoinReport report;
-  report.robot = session.groups()[*robot].info.name;
+  report.robot = compared.target.robot;
+  report.files = recording.files();
+  report.notes = recording.notes();
   if (options.offset) {
-    report.clock.offset = *options.offset;
-    report.clock.drift = options.drift.value_or(0.0);
+    report.clock = {*options.offset, options.drift.value_or(0.0)};
   } else {
-    report.clock = TRY(fitClocks(session, *robot, recording, *recorded));
+    report.fit = TRY(Result<ClockFit>(compared.fit));
+    report.clock = report.fit->clock;
   }
+  report.agreement = compared.comparison.agreement(report.clock);
   auto target = TRY(
       FileTarget::at(output, options.replace ? IfExists::Replace : IfExists::Refuse, sessionPath));
   telemetry::SessionWriterOptions writing;
@@ -242,12 +291,20 @@ Result<JoinReport> joinRecording(const std::string& sessionPath, const std::stri
   const auto writer =
       TRY(telemetry::SessionWriter::create(target.partPath(), session.info(), writing));
   TRY(copyAttachments(session, *writer));
-  for (const telemetry::SessionEvent& note : session.addedNotes()) writer->append(note);
-  if (!Joiner(session, *robot, recording, *recorded, report.clock, *writer).run(report, progress)) {
+  if (!session.attachment(catalogAttachment)) {
+    if (const auto map = recording.catalog()) {
+      writer->attach(catalogAttachment, "application/json", *map);
+    }
+  }
+  for (const telemetry::SessionEvent& note : session.addedNotes()) {
+    if (note.kind != info(MatchEventKind::Note).name) writer->append(note);
+  }
+  if (!Joiner(session, compared.target, recording, report.clock, *writer).run(report, progress)) {
     return failure(ErrorCode::Conflict, "Cancelled.");
   }
   TRY(writer->finish());
   TRY(target.commit());
+  TRY(telemetry::copyDrawnNotes(sessionPath, output, {-1e18, 1e18}));
   return report;
 }
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include <robotlink/session/session_events.h>
-#include <telemetry/wire/referee_json.h>
+#include <telemetry/referee/referee_json.h>
 
 namespace pitchboard::link {
 namespace {

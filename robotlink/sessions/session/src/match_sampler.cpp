@@ -326,8 +326,9 @@ bool MatchSampler::sameRobots(const SimulatedMatch& match) const {
       m_sampled, m_snapshot.robots, [&](const SampledRobot& sampled, const auto& robot) {
         const RobotSlot* slot = match.robots().find(robot.identity.id);
         return sampled.identity == robot.identity && slot && sampled.key == slot->board.key() &&
-               sampled.behaviour == slot->behaviour && sampled.radius == robot.radius &&
-               sampled.fieldOfView == robot.fieldOfView && sampled.visionRange == robot.visionRange;
+               sampled.behaviour == slot->behaviour && sampled.programs == slot->programs &&
+               sampled.radius == robot.radius && sampled.fieldOfView == robot.fieldOfView &&
+               sampled.visionRange == robot.visionRange;
       });
 }
 
@@ -361,7 +362,7 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
   for (const sim::RobotSnapshot& robot : m_snapshot.robots) {
     const sim::RobotIdentity& identity = robot.identity;
     const RobotSlot& slot = *match.robots().find(identity.id);
-    SampledRobot sampled{identity,     slot.board.key(),  slot.behaviour,
+    SampledRobot sampled{identity,     slot.board.key(),  slot.behaviour,   slot.programs,
                          robot.radius, robot.fieldOfView, robot.visionRange};
     telemetry::GroupInfo info{groupName(identity), m_board->columns(), {}};
     info.columns.insert(info.columns.end(), truth.begin(), truth.end());
@@ -375,6 +376,7 @@ void MatchSampler::takeRobots(const SimulatedMatch& match) {
     facts.boardKey = sampled.key;
     facts.imuStartsAt180 = identity.imuStartsAt180;
     facts.behaviour = sampled.behaviour;
+    facts.programs = sampled.programs;
     facts.radius_m = robot.radius;
     facts.fieldOfView_deg = degreesFromRadians(robot.fieldOfView);
     facts.visionRange_m = robot.visionRange;

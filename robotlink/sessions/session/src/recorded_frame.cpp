@@ -242,9 +242,11 @@ RobotFrame RecordedFrames::robotOf(std::size_t group, double time, LampMemory& l
     frame.teams[static_cast<std::size_t>(robot.key.team)].name = facts.teamName;
   }
   robot.name = identity.name();
+  if (!l.isBoard() && info.name.starts_with(robot.name + ' ')) robot.name = info.name;
   robot.ownName = facts.name;
   robot.boardKey = facts.boardKey;
   robot.behaviour = facts.behaviour;
+  robot.programs = facts.programs;
   robot.radius = facts.radius_m.value_or(robot.radius);
   if (facts.fieldOfView_deg) robot.fieldOfView = radiansFromDegrees(*facts.fieldOfView_deg);
   robot.visionRange = facts.visionRange_m.value_or(robot.visionRange);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include <base/base64.h>
 #include <base/try.h>
-#include <telemetry/wire/base64.h>
 
 #include "recorded_layout.h"
 
@@ -22,7 +22,7 @@ std::string checkpointToJson(const StateSegment& segment) {
       {"time", static_cast<double>(segment.firstTick()) / segment.tickRate()},
       {"tick", segment.firstTick()},
       {"last_tick", segment.lastTick()},
-      {"segment", telemetry::toBase64(segment.encode())}}
+      {"segment", toBase64(segment.encode())}}
       .dump();
 }
 
@@ -31,7 +31,7 @@ Result<StateSegment> checkpointFromJson(std::string_view json) {
   if (object.is_object()) {
     const auto found = object.find("segment");
     if (found != object.end() && found->is_string()) {
-      const auto bytes = telemetry::fromBase64(found->get_ref<const std::string&>());
+      const auto bytes = fromBase64(found->get_ref<const std::string&>());
       if (bytes) return StateSegment::decode(*bytes);
     }
   }

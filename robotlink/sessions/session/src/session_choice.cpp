@@ -6,13 +6,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include <base/lenient_json.h>
 #include <base/try.h>
 #include <robotlink/frame/build_robot.h>
 #include <robotlink/live/live_state.h>
 #include <robotlink/live/live_teams.h>
 #include <robotlink/session/live_moments.h>
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/lenient_json.h>
+#include <telemetry/referee/gamecontroller.h>
 
 namespace pitchboard::link {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 using telemetry::SessionStream;
 using telemetry::WallTime;
 using Json = nlohmann::ordered_json;
-namespace lenient = telemetry::lenient;
+namespace lenient = lenient;
 
 /// What is theirs in the messages of a session, in the order of recording.
 class Choice {

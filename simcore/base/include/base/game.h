@@ -2,7 +2,7 @@
 #pragma once
 
 // The game that a referee leads: one value for the packets of every league, the simulated referee,
-// files and saved moments. Readers at the edge make it (gameOf() in telemetry/wire from packets,
+// files and saved moments. Readers at the edge make it (gameOf() in telemetry/referee from packets,
 // simcore/rules from calls, robotlink/session from columns), writers at the edge turn it into
 // packets, columns and words. Times are counted in ticks: those of a simulated match, so that runs
 // repeat exactly, and whole seconds in packets. Plain values; any thread.

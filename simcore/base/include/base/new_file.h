@@ -33,6 +33,9 @@ class NewFile {
 
   /// Writes all bytes. After an error, part of them may be in the file.
   Result<void> write(std::string_view bytes);
+  /// Lets the system begin to write a part to the disk, so that a later flush is short. Only a
+  /// hint.
+  void startFlush(std::uint64_t offset, std::uint64_t bytes) const;
   /// Waits until everything is on the disk.
   Result<void> sync() const;
   /// Waits until the file's name is on the disk; without it, a new file can be lost in a power

@@ -149,6 +149,7 @@ _FUNCTIONS: Dict[str, List[Any]] = {
     "pb_session_open": [c_char_p, _OUT],
     "pb_session_close": [_HANDLE],
     "pb_session_describe": [_HANDLE, _OUT],
+    "pb_session_group": [_HANDLE, c_char_p, POINTER(c_int32)],
     "pb_session_events": [_HANDLE, c_double, c_double, _OUT],
     "pb_session_rows": [_HANDLE, c_int32, _ARRAY, c_size_t, c_double, c_double, c_int32, _OUT],
     "pb_session_frame": [_HANDLE, c_double, _OUT],

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import threading
-from ctypes import byref, c_void_p
+from ctypes import byref, c_int32, c_void_p
 from typing import (
     Any,
     Dict,
@@ -27,6 +27,7 @@ import numpy.typing as npt
 
 from ._library import (
     DTYPES,
+    NOT_FOUND,
     ClosedError,
     Data,
     address,
@@ -101,6 +102,15 @@ class _File:
         out = c_void_p()
         described = _data(lib.pb_session_describe(self.handle, byref(out)), out)
         return dict(json.loads(described.text()))
+
+    def present_name(self, former: str) -> str:
+        """The name of the group that had this one earlier."""
+        index = c_int32()
+        status = lib.pb_session_group(self.handle, former.encode(), byref(index))
+        if status == NOT_FOUND:
+            raise unknown_name("the session has no robot", former, list(self.groups))
+        check(status)
+        return next(name for name, group in self.groups.items() if group["index"] == index.value)
 
     def rows(
         self, group: int, columns: Sequence[int], within: Tuple[float, float], unknown: int
@@ -327,7 +337,7 @@ class Frame(Mapping[str, Row]):
 class Session(Mapping[str, Group]):
     """A recording: groups of variables by name. pitchboard.open() makes one.
 
-    session["B1"]    a Group: a robot
+    session["B1"]    a Group: a robot, by its name or one that it had earlier
     session[10:20]   a Session of the time from 10 s to 20 s, both included, as pandas' .loc
 
     Only what is used is read from the file, and of a part only that part. Any thread may use a
@@ -352,10 +362,9 @@ class Session(Mapping[str, Group]):
                 "session[...] takes the name of a robot or a range of time such as 10:20, not "
                 f"{type(key).__name__}."
             )
-        if key not in self._file.groups:
-            raise unknown_name("the session has no robot", key, list(self._file.groups))
-        columns = range(len(self._file.groups[key]["columns"]))
-        return Group(self._file, key, self._within, columns)
+        name = key if key in self._file.groups else self._file.present_name(key)
+        columns = range(len(self._file.groups[name]["columns"]))
+        return Group(self._file, name, self._within, columns)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._file.groups)

@@ -12,7 +12,7 @@
 #include <robotlink/frame/ball_sight.h>
 #include <robotlink/frame/match_event.h>
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/sockets/udp_receiver.h>
 
 namespace pitchboard::link {
 

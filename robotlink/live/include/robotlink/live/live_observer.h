@@ -18,10 +18,10 @@
 #include <robotlink/live/live_rows.h>
 #include <robotlink/live/live_topics.h>
 #include <robotlink/live/sent_boards.h>
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/referee_tracker.h>
-#include <telemetry/wire/team_monitor.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/monitor/team_monitor.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/referee/referee_tracker.h>
+#include <telemetry/sockets/udp_receiver.h>
 
 namespace pitchboard::link {
 

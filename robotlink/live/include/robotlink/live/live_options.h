@@ -13,9 +13,9 @@
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/foxglove_source.h>
 #include <simcore/world/field.h>
+#include <telemetry/monitor/monitor_request.h>
+#include <telemetry/monitor/team_monitor.h>
 #include <telemetry/pb2/pb2.h>
-#include <telemetry/wire/monitor_request.h>
-#include <telemetry/wire/team_monitor.h>
 
 namespace pitchboard::link {
 

@@ -19,8 +19,8 @@
 
 #include <robotlink/frame/teams.h>
 #include <robotlink/live/robot_uids.h>
+#include <telemetry/monitor/team_monitor.h>
 #include <telemetry/series/row_sink.h>
-#include <telemetry/wire/team_monitor.h>
 
 namespace pitchboard::link {
 

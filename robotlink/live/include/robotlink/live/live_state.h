@@ -16,8 +16,8 @@
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/live/live_options.h>
 #include <robotlink/live/robot_uids.h>
-#include <telemetry/wire/gamecontroller.h>
-#include <telemetry/wire/referee_tracker.h>
+#include <telemetry/referee/gamecontroller.h>
+#include <telemetry/referee/referee_tracker.h>
 
 namespace pitchboard::link {
 

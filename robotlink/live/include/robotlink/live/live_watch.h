@@ -11,7 +11,7 @@
 
 #include <robotlink/live/live_observer.h>
 #include <robotlink/live/live_options.h>
-#include <telemetry/wire/live_clock.h>
+#include <telemetry/sockets/live_clock.h>
 
 namespace pitchboard::link {
 

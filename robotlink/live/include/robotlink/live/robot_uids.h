@@ -18,8 +18,8 @@
 #include <vector>
 
 #include <base/robot_key.h>
-#include <telemetry/wire/datagram.h>
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::link {
 

@@ -16,10 +16,10 @@
 #include <robotlink/frame/robot_frame.h>
 #include <robotlink/live/attached_robots.h>
 #include <robotlink/live/robot_uids.h>
+#include <telemetry/monitor/link_health.h>
+#include <telemetry/monitor/team_monitor.h>
 #include <telemetry/pb2/pb2.h>
-#include <telemetry/wire/datagram.h>
-#include <telemetry/wire/link_health.h>
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::link {
 

@@ -44,11 +44,17 @@ class TopicGroups {
   struct Layout {
     std::shared_ptr<const telemetry::RecordedShape> shape;
     std::vector<std::uint32_t> columns;  ///< of each field; noColumn: there are too many
-    bool isTextOnly = false;             ///< besides a header
+    /// Texts: their fields, and their columns if those take texts.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> texts;
+    std::uint64_t refused = 0;  ///< values of a message that have no column
+    bool isTextOnly = false;    ///< besides a header
+    bool isInOrder = false;     ///< the columns are the first ones of the group, as they come
   };
   struct Texts {
     std::map<std::string, int, std::less<>> codes;
-    std::string last;
+    std::string last;   ///< that was logged
+    std::string coded;  ///< the last one that has a code, and its code
+    double code = -1.0;
     bool keepsChanging = false;
   };
   struct Group {
@@ -56,6 +62,7 @@ class TopicGroups {
     telemetry::GroupId id = 0;
     std::unordered_map<std::string, std::uint32_t> columns;
     std::unordered_map<const telemetry::RecordedShape*, Layout> layouts;
+    const Layout* layout = nullptr;        ///< of the last message
     std::map<std::uint32_t, Texts> texts;  ///< by column
     std::vector<double> row;
     double lastTime = 0.0;
@@ -67,6 +74,10 @@ class TopicGroups {
   Group& groupOf(std::size_t source, const telemetry::RecordedTopic& topic, std::size_t index,
                  const std::string& origin);
   const Layout& layoutOf(Group& group, const telemetry::RecordedMessage& message);
+  static void sortFields(const Group& group, Layout& layout);
+  static void fillRow(Group& group, const Layout& layout, const telemetry::RecordedMessage& message,
+                      std::size_t columns);
+  std::vector<const Group*> allGroups() const;
   double codeOf(Group& group, std::uint32_t column, std::string_view text, double time,
                 bool isLogged);
   void logLine(const Group& group, double time, std::string text);
@@ -74,7 +85,7 @@ class TopicGroups {
 
   telemetry::RowSink& m_rows;
   const LogTaker m_log;
-  std::map<std::pair<std::size_t, std::size_t>, std::unique_ptr<Group>> m_groups;
+  std::vector<std::vector<std::unique_ptr<Group>>> m_groups;  ///< by source and topic
   std::set<std::string> m_names;
   std::uint64_t m_logLines = 0;
 };

@@ -5,6 +5,7 @@
 // hold, what is the log, what the referee. builtInMapping() knows the usual messages of ROS; other
 // mappings are JSON files (docs/other-robots.md). Plain values and pure functions; any thread.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -107,11 +108,27 @@ struct MappedReferee {
   bool operator==(const MappedReferee&) const = default;
 };
 
+/// Which time of a message counts.
+enum class RecordingClock : std::uint8_t {
+  Auto,    ///< as Header, unless the first of a file is more than a minute from its log time
+  Header,  ///< when it was measured, if the message says so
+  Log      ///< when it was recorded
+};
+
+/// A file that is not a part of a split recording but one of several recordings of a match.
+struct MappedRecording {
+  std::string file;  ///< its name without folders
+  RecordingClock clock = RecordingClock::Auto;
+  double offset = 0.0;  ///< s, added to its times
+  bool operator==(const MappedRecording&) const = default;
+};
+
 struct TopicMapping {
   std::string field;  ///< name of a field (docs/scenarios.md); empty: the default
   std::vector<MappedRobot> robots;
   std::vector<MappedLog> log;
   std::optional<MappedReferee> referee;
+  std::vector<MappedRecording> recordings;
   bool operator==(const TopicMapping&) const = default;
 };
 

@@ -11,7 +11,7 @@
 
 #include <base/log_line.h>
 #include <robotlink/live/topic_mapping.h>
-#include <robotlink/live/topic_robots.h>
+#include <robotlink/live/topic_path.h>
 
 namespace pitchboard::link {
 

@@ -16,26 +16,12 @@
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/live/topic_mapping.h>
 #include <robotlink/live/transform_tree.h>
+#include <telemetry/referee/gamecontroller.h>
 #include <telemetry/series/row_sink.h>
-#include <telemetry/wire/gamecontroller.h>
 
 namespace pitchboard::link {
 
-/// Finds the value of a path in messages; the place is looked up once for each shape.
-class TopicPath {
- public:
-  explicit TopicPath(std::string path = {}) : m_path(std::move(path)) {}
-  bool isEmpty() const { return m_path.empty(); }
-  /// Returns nothing if the message does not have it, or has a text or NaN there.
-  std::optional<double> number(const telemetry::RecordedMessage& message) const;
-  std::optional<std::string_view> text(const telemetry::RecordedMessage& message) const;
-
- private:
-  std::optional<std::size_t> find(const telemetry::RecordedMessage& message) const;
-  std::string m_path;
-  mutable std::shared_ptr<const telemetry::RecordedShape> m_shape;  ///< of the place
-  mutable std::optional<std::size_t> m_index;
-};
+struct TopicRobot;
 
 class TopicRobots {
  public:
@@ -83,29 +69,19 @@ class TopicRobots {
   void addNotes(std::vector<std::string>& notes) const;
 
  private:
-  struct Robot;
-  Robot& add(const MappedRobot& mapped);
-  static void use(Robot& robot, const MappedRobot& mapped);
-  void identify(Robot& robot);
-  Robot* replying(const telemetry::RobotReply& reply, const Game& game);
-  void takePose(Robot& robot, std::size_t index, const telemetry::RecordedMessage& message,
-                double time);
-  void takeTransforms(const telemetry::RecordedTopic& topic,
-                      const telemetry::RecordedMessage& message, double time);
+  TopicRobot& add(const MappedRobot& mapped);
+  void identify(TopicRobot& robot);
+  TopicRobot* replying(const telemetry::RobotReply& reply, const Game& game);
   void takeTransformed(const std::string& frame, double time);
-  Robot* ofFrame(const std::string& frame);
-  Robot* addOfFrame(const std::string& frame);
-  void takeBall(Robot& robot, const telemetry::RecordedMessage& message, double time);
-  void takeBattery(Robot& robot, const telemetry::RecordedMessage& message, double time);
-  void takeFallen(Robot& robot, const telemetry::RecordedMessage& message, double time);
-  void setFallen(Robot& robot, bool isFallen, double time);
-  Pose onField(const Robot& robot, Pose pose, MappedFrame frame) const;
-  void write(Robot& robot, double time);
-  telemetry::GroupInfo groupOf(const Robot& robot) const;
+  TopicRobot* ofFrame(const std::string& frame);
+  TopicRobot* addOfFrame(const std::string& frame);
+  void takeFallen(TopicRobot& robot, const telemetry::RecordedMessage& message, double time);
+  void setFallen(TopicRobot& robot, bool isFallen, double time);
+  void write(TopicRobot& robot, double time);
 
   telemetry::RowSink& m_rows;
   Options m_options;
-  std::vector<std::unique_ptr<Robot>> m_robots;
+  std::vector<std::unique_ptr<TopicRobot>> m_robots;
   TransformTree m_tree;
   std::vector<MatchEvent> m_events;
   std::uint64_t m_refused = 0;

@@ -6,11 +6,11 @@
 #include <base/try.h>
 #include <robotlink/blackboard/robot_variables.h>
 #include <robotlink/cognition/referee_orders.h>
-#include <telemetry/wire/referee_tracker.h>
-#include <telemetry/wire/socket_address.h>
-#include <telemetry/wire/text_protocol.h>
-#include <telemetry/wire/udp_receiver.h>
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/formats/text_protocol.h>
+#include <telemetry/referee/referee_tracker.h>
+#include <telemetry/sockets/socket_address.h>
+#include <telemetry/sockets/udp_receiver.h>
+#include <telemetry/sockets/udp_sender.h>
 
 namespace pitchboard::link {
 namespace {

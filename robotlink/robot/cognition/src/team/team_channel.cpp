@@ -11,8 +11,8 @@
 #include <base/try.h>
 #include <base/unique_fd.h>
 #include <robotlink/processes/lock_step_slots.h>
-#include <telemetry/wire/socket_address.h>
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/sockets/socket_address.h>
+#include <telemetry/sockets/udp_sender.h>
 
 namespace pitchboard::link {
 namespace {

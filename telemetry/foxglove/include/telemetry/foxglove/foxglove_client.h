@@ -18,7 +18,7 @@
 
 #include <telemetry/foxglove/foxglove_address.h>
 #include <telemetry/foxglove/foxglove_frames.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::telemetry {
 

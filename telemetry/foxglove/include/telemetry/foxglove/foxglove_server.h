@@ -19,7 +19,7 @@
 #include <base/result.h>
 #include <telemetry/foxglove/foxglove_frames.h>
 #include <telemetry/foxglove/foxglove_requests.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::telemetry {
 
@@ -56,10 +56,12 @@ class FoxgloveServer {
   void advertise(FoxgloveChannel channel);
   /// Takes a channel back; nobody is subscribed to it any more.
   void unadvertise(std::uint32_t channel);
-  /// Sends a message to everybody who subscribed to the channel. With `keep`, whoever subscribes
-  /// later gets the last one at once.
-  void send(std::uint32_t channel, std::uint64_t logTime, std::string_view payload,
-            bool keep = false);
+  /// Sends a message to everybody who subscribed to the channel.
+  void send(std::uint32_t channel, std::uint64_t logTime, std::string_view payload);
+  /// The same, and whoever subscribes later gets the last one at once. `payload` makes the message:
+  /// during the call if there is a client, otherwise on the server's thread when somebody
+  /// subscribes, or never. It must own what it needs.
+  void sendKept(std::uint32_t channel, std::uint64_t logTime, std::function<std::string()> payload);
   /// Tells the present time of what is shown.
   void setTime(std::uint64_t time);
   /// Tells how the playback goes on, if it was offered.

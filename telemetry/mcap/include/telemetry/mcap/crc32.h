@@ -14,4 +14,8 @@ namespace pitchboard::telemetry {
 /// first. The same number as zlib's crc32().
 std::uint32_t extendedCrc(std::uint32_t crc, std::string_view bytes);
 
+/// Returns the checksum of two parts: `first` is that of the first one, `second` that of the other
+/// one, which has `size` bytes.
+std::uint32_t joinedCrc(std::uint32_t first, std::uint32_t second, std::uint64_t size);
+
 }  // namespace pitchboard::telemetry

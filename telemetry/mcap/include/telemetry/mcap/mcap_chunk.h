@@ -22,6 +22,8 @@ class McapChunk {
   char* addMessage(std::uint16_t channel, std::uint32_t sequence, std::uint64_t logTime,
                    std::uint64_t publishTime, std::size_t size);
   void add(const McapMessage& message);
+  /// `more` follows the data of the message.
+  void add(const McapMessage& message, std::string_view more);
   void clear();  ///< removes everything, but keeps the memory
 
   bool empty() const { return m_body.empty(); }

@@ -30,7 +30,8 @@ struct RobotFacts {
   std::optional<int> place;         ///< RobotKey::team of a robot that sends its blackboard
   std::string name;                 ///< the name that its team gives it
   std::string teamName, profile, behaviour;
-  int teamNumber = 0;  ///< of its team in the GameController
+  std::vector<std::string> programs;  ///< files of the team programs that run for it: "chase.py"
+  int teamNumber = 0;                 ///< of its team in the GameController
   /// The rows were made of the recording of another program: of which one.
   std::string recordedBy;
   std::string linkOf;     ///< the rows are about the link of the robot with this name

@@ -10,7 +10,7 @@
 
 #include <base/result.h>
 #include <telemetry/series/series_types.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::telemetry {
 

@@ -13,7 +13,7 @@
 
 #include <base/log_line.h>
 #include <telemetry/series/series_types.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::telemetry {
 

@@ -27,7 +27,7 @@ struct SessionWriterOptions {
                            << 20;  ///< bytes that may wait for the disk; more is dropped
   std::size_t chunkBytes = std::size_t{2} << 20;            ///< a chunk is written at this size,
   Duration chunkInterval = std::chrono::milliseconds(800);  ///< or at this age
-  int level = 7;  ///< compression level of zstd; 7 is a tenth smaller than 3
+  int level = 7;  ///< as of McapWriterOptions; 7 is a tenth smaller than 3
   bool waitWhenFull =
       false;             ///< append() waits instead of dropping, for runs faster than real time
   bool sync = true;      ///< flush each chunk to the disk, not only to the kernel

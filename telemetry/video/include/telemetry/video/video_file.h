@@ -18,7 +18,7 @@
 #include <vector>
 
 #include <base/result.h>
-#include <telemetry/wire/datagram.h>
+#include <telemetry/sockets/datagram.h>
 
 namespace pitchboard::telemetry {
 

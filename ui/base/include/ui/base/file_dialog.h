@@ -5,8 +5,10 @@
 // thread.
 
 #include <QString>
+#include <QStringList>
 
 class QFileDialog;
+class QMimeData;
 class QSettings;
 class QWidget;
 
@@ -21,6 +23,7 @@ void keepDialogFolderIn(QSettings* settings, const QString& first);
 
 // Ask and wait; return an empty path if nothing was chosen. `filter` as of QFileDialog.
 QString askToOpen(QWidget* parent, const QString& title, const QString& filter = {});
+QStringList askToOpenSeveral(QWidget* parent, const QString& title, const QString& filter = {});
 /// `name` is what the file is called unless somebody types another name.
 QString askToSave(QWidget* parent, const QString& title, const QString& name,
                   const QString& filter = {});
@@ -28,5 +31,8 @@ QString askForFolder(QWidget* parent, const QString& title);
 
 /// For a dialog that nobody waits for: it opens there, and its choice is remembered.
 void openInDialogFolder(QFileDialog* dialog);
+
+/// Returns the files of this computer with this suffix ("mcap") that are being dropped.
+QStringList droppedFiles(const QMimeData* data, const QString& suffix);
 
 }  // namespace pitchboard::ui

@@ -5,12 +5,17 @@
 // next step. A new message replaces the old one. UI thread only.
 
 #include <QFrame>
+#include <QStringList>
 #include <functional>
 
 class QLabel;
 class QPushButton;
 
 namespace pitchboard::ui {
+
+/// Returns the first few of these sentences, a line each, and how many more there are: a panel
+/// needs its room for what it shows.
+QString shortListOf(const QStringList& sentences);
 
 class InPlaceMessage : public QFrame {
   Q_OBJECT

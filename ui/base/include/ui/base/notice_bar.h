@@ -9,6 +9,7 @@
 #include <QFrame>
 #include <QString>
 #include <functional>
+#include <utility>
 #include <vector>
 
 class QBoxLayout;
@@ -45,6 +46,10 @@ class NoticeBar : public QFrame {
             std::vector<NoticeButton> buttons = {});
   /// Removes the notice of this topic, because its cause is gone.
   void settle(const QString& topic);
+  /// Removes the notice if it disappears by itself and its time is over. The bar calls it.
+  void removeOver();
+  /// The clock for that: milliseconds that never decrease.
+  void setClock(std::function<qint64()> milliseconds) { m_clock = std::move(milliseconds); }
   NoticeTone tone() const {
     return m_notices.empty() ? NoticeTone::Trouble : m_notices.front().topic.tone;
   }
@@ -71,10 +76,12 @@ class NoticeBar : public QFrame {
   std::vector<Notice> m_notices;  // the first is shown
   Text* m_text;
   QToolButton* m_more;
-  QBoxLayout* m_row;          // the text, and beside or below it:
-  QBoxLayout* m_side;         // how many more there are, and
-  QBoxLayout* m_buttons;      // the buttons
-  QTimer* m_leaving;          // of a success
+  QBoxLayout* m_row;      // the text, and beside or below it:
+  QBoxLayout* m_side;     // how many more there are, and
+  QBoxLayout* m_buttons;  // the buttons
+  QTimer* m_leaving;      // of a success
+  std::function<qint64()> m_clock;
+  qint64 m_leavesAt = 0;
   QWidget* m_host = nullptr;  // over which it floats
 };
 

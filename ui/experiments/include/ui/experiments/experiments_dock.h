@@ -9,7 +9,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
-class ComparedSession;
+class ComparedSessions;
 class ReplayController;
 class RunningWork;
 class SituationTests;
@@ -17,7 +17,7 @@ class SituationTests;
 /// All must outlive the dock.
 struct ExperimentsDockParts {
   ReplayController* replay = nullptr;
-  ComparedSession* compared = nullptr;
+  ComparedSessions* compared = nullptr;
   SituationTests* tests = nullptr;  ///< tests that it saves are offered and played here
   RunningWork* work = nullptr;      ///< is told of experiments that run
 };

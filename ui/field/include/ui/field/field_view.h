@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <base/robot_key.h>
+#include <telemetry/session/drawn_notes.h>
 #include <ui/field/field_layers.h>
 #include <ui/sources/ball_heat.h>
 #include <ui/sources/field_pictures.h>
@@ -31,6 +32,8 @@ struct FieldActions {
   QAction *publishedKeys, *showKeys, *fit, *flip;
 };
 
+class NoteBoard;
+
 class FieldView : public QWidget, public FieldPictures {
   Q_OBJECT
  public:
@@ -43,10 +46,16 @@ class FieldView : public QWidget, public FieldPictures {
   void showFrame(const FramePtr& frame);
   /// Draws the same robots as another source sees them, with the difference; null: none.
   void showOther(const FramePtr& frame);
-  /// Draws a moment of another session on top; null: none.
-  void showCompared(const FramePtr& frame);
+  /// Draws a moment of another session on top; null: none. `number`: of the session
+  /// (session_mark.h), 0 for an abandoned future.
+  void showCompared(int number, const FramePtr& frame);
   /// What may follow a moment, drawn in the layer Exploration; null: nothing.
   void showHeat(const BallHeatPtr& heat);
+
+  /// Shows the notes of the board, lets the mouse draw and change them, and offers its tools. Once.
+  void showNotes(NoteBoard* board);
+  /// Notes for pictures and videos, of a field without a board.
+  void setDrawnNotes(std::vector<telemetry::DrawnNote> notes);
 
   std::vector<RobotUid> selection() const;
   void select(const std::vector<RobotUid>& ids);

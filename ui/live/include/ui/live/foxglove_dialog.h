@@ -32,11 +32,23 @@ class FoxgloveDialog : public QDialog {
   /// and returns false.
   bool add();
 
+ signals:
+  /// Somebody wants to say what the topics of this bridge mean. The file is that of its mapping, or
+  /// empty; setMapping() answers.
+  void mappingWanted(const QString& address, const QString& file);
+
+ public slots:
+  /// Uses the mapping of a file for the bridge with this address.
+  void setMapping(const QString& address, const QString& file);
+
  private:
   QWidget* makeForm();
+  QWidget* makeMappingRow();
   void refresh();
   void choose();
   void remove();
+  void chooseMapping();
+  void editMapping();
   bool use(const std::vector<link::FoxgloveSource>& sources);
   bool showProblem(const QString& sentence);
 
@@ -46,11 +58,12 @@ class FoxgloveDialog : public QDialog {
   QLineEdit* m_address;
   QSpinBox* m_robot;
   QComboBox* m_team;
+  QLineEdit* m_mapping;
   QPushButton* m_remove;
   InPlaceMessage* m_problem;
 };
 
 /// Opens the dialog, or raises it if it is already open.
-void showFoxgloveDialog(LiveController* live, QSettings* settings, QWidget* window);
+FoxgloveDialog* showFoxgloveDialog(LiveController* live, QSettings* settings, QWidget* window);
 
 }  // namespace pitchboard::ui

@@ -29,7 +29,8 @@ class QUndoStack;
 namespace pitchboard::ui {
 
 class AbandonedFuture;
-class ComparedSession;
+class ComparedSessions;
+class NoteBoard;
 class NoticeBar;
 class PlotFeed;
 class PlotPage;
@@ -40,12 +41,13 @@ class ShownMoment;
 /// What the dock shows and changes; all must outlive it.
 struct PlotsContext {
   ShownMoment* shown = nullptr;
-  LinkedTime* time = nullptr;           ///< visible range and cursor of plots and timeline
-  PlotTarget* plots = nullptr;          ///< requests from other docks; may be null
-  QSettings* settings = nullptr;        ///< the user's; may be null
-  ComparedSession* compared = nullptr;  ///< its curves are drawn as well; may be null
-  AbandonedFuture* future = nullptr;    ///< drawn if no session is compared; may be null
-  PlotLayout first = {};                ///< layout of the very first start
+  LinkedTime* time = nullptr;            ///< visible range and cursor of plots and timeline
+  PlotTarget* plots = nullptr;           ///< requests from other docks; may be null
+  QSettings* settings = nullptr;         ///< the user's; may be null
+  ComparedSessions* compared = nullptr;  ///< their curves are drawn as well; may be null
+  AbandonedFuture* future = nullptr;     ///< drawn if no session is compared; may be null
+  PlotLayout first = {};                 ///< layout of the very first start
+  NoteBoard* notes = nullptr;            ///< what is drawn on plots; may be null
 };
 
 class PlotsDock : public QWidget {
@@ -82,6 +84,10 @@ class PlotsDock : public QWidget {
   void plotVariables(const QStringList& names);
   /// See PlotTarget::plotOver().
   void plotOver(const QString& group, const QString& other, const QStringList& columns);
+
+ signals:
+  /// Something that was asked for has happened already; for the status bar.
+  void noted(const QString& sentence);
 
  protected:
   void showEvent(QShowEvent* event) override;

@@ -24,6 +24,7 @@ class QProgressBar;
 class QPushButton;
 class QSettings;
 class QTableWidget;
+class QVBoxLayout;
 
 namespace pitchboard::ui {
 
@@ -52,10 +53,23 @@ class RerunDialog : public QDialog {
 
  private:
   struct Reader;  // the recording, on the worker
+  /// One more process that runs.
+  struct Row {
+    QWidget* box = nullptr;
+    QComboBox *process = nullptr, *program = nullptr;
+  };
   QWidget* makeForm();
   QWidget* makePlan();
   void showProcesses();
   void showPrograms();
+  void fillPrograms(QComboBox* box, const QString& process, bool proposesOurs);
+  QWidget* makeMore(QWidget* form);
+  void addRow();
+  void removeRow(const QWidget* box);
+  QStringList processes() const;
+  bool isWholeProfile() const;
+  std::vector<link::RerunProcess> chosenProcesses() const;
+  Result<std::vector<link::RerunProcess>> unchangedProcesses() const;
   void browse(QComboBox* program);
   Result<RerunOrder> order() const;
   void planSoon();
@@ -69,7 +83,9 @@ class RerunDialog : public QDialog {
   QComboBox *m_robot, *m_process, *m_program, *m_unchanged, *m_speed;
   QLineEdit *m_writes, *m_begin, *m_end, *m_warmUp;
   QCheckBox* m_check;
-  QPushButton *m_start, *m_browse;
+  QPushButton *m_start, *m_browse, *m_add;
+  QVBoxLayout* m_more;
+  std::vector<Row> m_rows;  // shown in m_more
   QProgressBar* m_progress;
   QLabel *m_message, *m_notes;
   QTableWidget* m_outputs;
@@ -79,7 +95,8 @@ class RerunDialog : public QDialog {
   int m_plans = 0;  // that were asked for
   bool m_started = false;
   bool m_canRun = true;
-  QString m_proposed;  // as the unchanged program
+  QString m_proposed;                            // as the unchanged program
+  std::vector<link::RerunProcess> m_recordedAs;  // of the newest plan
   std::shared_ptr<Reader> m_reader;
   UiQueue m_ui;
   Workers m_worker;  // last: waits for its work before the rest goes

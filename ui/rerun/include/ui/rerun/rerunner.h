@@ -29,8 +29,8 @@ class ShownMoment;
 /// What is to run.
 struct RerunOrder {
   link::RerunOptions options;  ///< without functions
-  /// Runs first, unchanged: what differs then is kept beside the recording and left out.
-  std::optional<link::RerunProcess> unchanged;
+  /// Run first, unchanged: what differs then is kept beside the recording and left out. Empty: not.
+  std::vector<link::RerunProcess> unchanged;
 };
 
 class Rerunner : public QObject {

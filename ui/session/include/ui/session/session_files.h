@@ -36,9 +36,16 @@ class SessionFiles : public QObject {
   void askAndOpen();
   /// Asks for a file; returns an empty path if none was chosen.
   QString askForFile(const QString& title);
-  /// Asks for what a robot recorded itself, joins it to the session that is open, and opens the
-  /// result.
+  QStringList askForFiles(const QString& title);
+  /// Asks for what a robot recorded itself and how the clocks compare, joins it to the session that
+  /// is open, and opens the result.
   void askAndJoin();
+  /// Imports recordings of other programs with the mapping of a file, and opens the result.
+  void importWith(const QStringList& recordings, const QString& mappingFile);
+  /// Returns the recordings of other programs that are open; empty if the session is one of ours.
+  QStringList importedRecordings() const;
+  /// The same with this recording.
+  void askHowToJoin(const QString& recording);
   /// Repairs the session into a new file beside it, and opens that.
   void repair(const QString& path);
   bool isRepairing() const { return m_repairs > 0; }
@@ -51,13 +58,18 @@ class SessionFiles : public QObject {
   void continueFromHere();
 
  signals:
+  /// Somebody wants to say what the topics of these recordings mean.
+  void mappingWanted(const QStringList& recordings);
   /// Another file is shown in place of the session that was open.
   void replaced();
+  /// Several files were dropped: the first one is shown, and these are wanted beside it.
+  void besideRequested(const QStringList& paths);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void openBeside();
   /// The window title names the session, which distinguishes several studios.
   void showTitle();
   Result<std::shared_ptr<const link::FollowedRecording>> recordingAfter(
@@ -75,8 +87,11 @@ class SessionFiles : public QObject {
   NoticeBar* m_notices;
   QWidget* m_window;
   RecordingImport* m_import;
-  QString m_before;   // the session that was open when open() was asked for another one
-  int m_repairs = 0;  // that run or wait
+  QStringList m_importing, m_imported;  // recordings, of m_importedSession
+  QString m_importedSession;
+  QStringList m_beside;  // to be compared with the file that is being opened
+  QString m_before;      // the session that was open when open() was asked for another one
+  int m_repairs = 0;     // that run or wait
   std::atomic<bool> m_cancelled = false;
   UiQueue m_toUi;
   Workers m_worker;

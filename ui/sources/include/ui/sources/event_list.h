@@ -17,6 +17,11 @@
 
 namespace pitchboard::ui {
 
+/// Returns whether it is a broken rule or a drawn note: who knows those lists them again.
+inline bool isMadeByStudio(const link::MatchEvent& event) {
+  return event.kind == link::MatchEventKind::RuleBroken || event.kind == link::MatchEventKind::Note;
+}
+
 class EventList : public QAbstractTableModel {
   Q_OBJECT
  public:
@@ -35,6 +40,8 @@ class EventList : public QAbstractTableModel {
   int add(link::MatchEvent event);
   /// Adds many events. Resets the model once if they are not all later than those in the list.
   void add(std::vector<link::MatchEvent> events);
+  /// Puts these events in place of all others of their kind.
+  void replace(link::MatchEventKind kind, std::vector<link::MatchEvent> events);
   /// Removes all events after this time, because the source continues from there.
   void rewind(double time);
   void clear();

@@ -146,6 +146,8 @@ class MatchController : public FrameSource {
   void ending();  ///< the match is about to end; last chance for its observers
   /// Emitted before `ending` if the match may come back. Receivers add what they keep of it.
   void retiring(pitchboard::ui::RetiredMatch& match);
+  /// A match was brought back with the rows and events that it had.
+  void broughtBack(const pitchboard::ui::RetiredMatch& match);
   /// Emitted while another match is prepared. Receivers may add observers, which see all of it.
   void preparing(std::vector<std::shared_ptr<pitchboard::link::TickObserver>>& observers);
   void scenarioChanged();   ///< another match is being opened, or none; `restarted` follows

@@ -47,7 +47,12 @@ class MatchMemory : public QObject {
     std::shared_ptr<link::StateArchive> archive;
     std::shared_ptr<link::DrawingMemory> drawings;
     /// Of each robot, with the times (s) from which on it had them.
-    std::map<RobotUid, std::vector<std::pair<double, std::string>>> behaviours;
+    struct Thinking {
+      double from = 0.0;
+      std::string behaviour;
+      std::vector<std::string> programs;
+    };
+    std::map<RobotUid, std::vector<Thinking>> thinking;
   };
 
   // Called by the controller when a match is made or comes back, and when there is none.
@@ -96,7 +101,7 @@ class MatchMemory : public QObject {
   void branched(const pitchboard::ui::MatchBranch& left);
 
  private:
-  void noteBehaviours(const link::MatchFrame& frame);
+  void noteThinking(const link::MatchFrame& frame);
 
   MatchController* m_match;
   std::size_t m_budget = std::size_t{1} << 30;

@@ -6,7 +6,9 @@
 // worker threads.
 
 #include <atomic>
+#include <span>
 
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/session_types.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
@@ -41,6 +43,8 @@ class ReplayController : public FrameSource {
   /// Returns whether the file is a run of an experiment that would end differently if it were
   /// played again.
   bool isUnrepeatable() const;
+  /// Returns the notes that were drawn on the recording when it was opened.
+  std::span<const telemetry::DrawnNote> drawnNotes() const;
   /// Returns the scenario of the session as JSON; empty if it has none.
   std::string attachedScenario() const;
   /// Returns the groups of the file as soon as it is open, before series() has their rows.

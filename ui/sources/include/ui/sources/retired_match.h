@@ -10,6 +10,7 @@
 
 #include <robotlink/frame/match_event.h>
 #include <robotlink/match/moment.h>
+#include <telemetry/session/drawn_notes.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_memory.h>
 
@@ -23,7 +24,8 @@ struct RetiredMatch {
   std::shared_ptr<const link::VariableCatalog> catalog;
   bool paused = false;
   MatchMemory::Kept memory;
-  std::vector<link::MatchEvent> events;  ///< the events of the timeline
+  std::vector<link::MatchEvent> events;     ///< the events of the timeline
+  std::vector<telemetry::DrawnNote> drawn;  ///< what the user drew
 };
 
 }  // namespace pitchboard::ui

@@ -3,7 +3,8 @@
 
 // Checks the rules of a file (docs/rules.md) in the source that is shown: in a recording once, in a
 // match and in Live while rows come. The list of the times at which they were broken is a table
-// model in order of time, for the panel Rules and the timeline. UI thread only; rows are read on a
+// model in order of time, for the panel Rules and the timeline; each beginning is also an event of
+// the source. UI thread only; rows are read on a
 // worker thread. Times are seconds of the source.
 
 #include <QAbstractTableModel>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include <base/result.h>
+#include <robotlink/frame/match_event.h>
 #include <telemetry/query/rules.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
@@ -85,6 +87,8 @@ class RuleWatch : public QAbstractTableModel {
   void advance();
   void take(const std::shared_ptr<Search>& search, Progress&& found);
   bool list(BrokenRule&& one);
+  link::MatchEvent eventOf(const BrokenRule& one) const;
+  void listEvents();
   bool isRecording() const;
 
   ShownMoment* m_shown;

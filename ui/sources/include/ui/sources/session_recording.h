@@ -16,9 +16,11 @@
 #include <set>
 
 #include <robotlink/session/match_recorder.h>
+#include <telemetry/session/drawn_notes.h>
 #include <telemetry/session/recording_health.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
+#include <ui/sources/frame_source.h>
 
 class QSettings;
 class QTimer;
@@ -48,6 +50,10 @@ class SessionRecording : public QObject {
   void setWriting(const telemetry::SessionWriterOptions& options) { m_writing = options; }
 
   bool isRecording() const { return m_recorder.has_value(); }
+  /// `notes` returns the drawn notes of a source; what is saved from memory keeps them.
+  void setDrawnNotes(std::function<std::vector<telemetry::DrawnNote>(FrameSource*)> notes) {
+    m_drawnNotes = std::move(notes);
+  }
   /// Returns whether the source that is shown can be recorded.
   bool isPossible() const;
   void start();
@@ -60,6 +66,8 @@ class SessionRecording : public QObject {
   /// Returns the status of the current recording.
   telemetry::SessionStatus status() const;
   QString path() const { return m_path; }
+  /// Returns the source that is being recorded; null if none is.
+  const FrameSource* source() const;
   /// Returns the files of recordings that a studio with these settings did not end, because it was
   /// killed, and forgets them. Those of a studio that still runs are not among them.
   QStringList drainLost();
@@ -71,8 +79,10 @@ class SessionRecording : public QObject {
   SessionMaker recentPast(double seconds) const;
 
  signals:
-  void changed();                   ///< started or stopped
-  void saved(const QString& path);  ///< a file is complete
+  void changed();  ///< started or stopped
+  void began();    ///< started, with a new file
+  /// A file is complete that was recorded of this source.
+  void saved(const QString& path, const pitchboard::ui::FrameSource* source);
   void failed(const QString& sentence);
   void noted(const QString& sentence);  ///< a remark; nothing failed
 
@@ -89,6 +99,7 @@ class SessionRecording : public QObject {
   void checkHealth();
   void warnOf(const telemetry::SessionStatus& status);
   void finish(bool matchEnds);
+  const FrameSource* sourceOf(bool live) const;
 
   /// The recorder of one kind of source.
   struct Recorder {
@@ -112,6 +123,7 @@ class SessionRecording : public QObject {
   telemetry::SessionWriterOptions m_writing;
   std::optional<Recorder> m_recorder;
   QString m_path;
+  std::function<std::vector<telemetry::DrawnNote>(FrameSource*)> m_drawnNotes;
   QString m_endedPath;  // of a recording that ended with its match; empty: none did
   std::set<telemetry::RecordingTrouble> m_reported;  // of this recording
   std::deque<LogLine> m_log;                         // of the present match, for saveLast()

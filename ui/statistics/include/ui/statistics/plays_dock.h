@@ -2,7 +2,8 @@
 #pragma once
 
 // The panel Play by play: passes, shots, balls won, set plays and penalties of the match that is
-// shown, as a tally finds them (docs/statistics.md); each leads to its moment. UI thread only.
+// shown and of compared sessions, as a tally finds them (docs/statistics.md); each leads to its
+// moment. UI thread only.
 
 #include <functional>
 
@@ -10,6 +11,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class ComparedSessions;
 class ReplayController;
 class ShownMoment;
 
@@ -17,6 +19,7 @@ class ShownMoment;
 struct PlaysDockParts {
   ShownMoment* shown = nullptr;
   ReplayController* replay = nullptr;
+  const ComparedSessions* compared = nullptr;
   std::function<void()> saveTest, rerun, exportRange;
 };
 QWidget* makePlaysDock(const PlaysDockParts& parts, QWidget* parent);

@@ -10,7 +10,7 @@ class QWidget;
 
 namespace pitchboard::ui {
 
-class ComparedSession;
+class ComparedSessions;
 class ReplayController;
 class RobotSelection;
 class ShownMoment;
@@ -19,7 +19,7 @@ class ShownMoment;
 struct StatisticsDockParts {
   ShownMoment* shown = nullptr;
   ReplayController* replay = nullptr;  ///< whose file is read while it is shown
-  ComparedSession* compared = nullptr;
+  ComparedSessions* compared = nullptr;
   RobotSelection* selection = nullptr;
   QSettings* settings = nullptr;  ///< where the variables are kept; may be null
 };

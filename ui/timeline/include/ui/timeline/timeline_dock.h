@@ -8,7 +8,7 @@ class QWidget;
 namespace pitchboard::ui {
 
 class AbandonedFuture;
-class ComparedSession;
+class ComparedSessions;
 class LinkedTime;
 class RuleWatch;
 class ShownMoment;
@@ -19,9 +19,9 @@ struct TimelineContext {
   LinkedTime* time = nullptr;    ///< visible range and cursor, shared with the plots
   ShownMoment* shown = nullptr;  ///< the moment shown, events, looking back
   TimelineActions* timelineActions = nullptr;
-  ComparedSession* compared = nullptr;  ///< its events are in a second row; may be null
-  AbandonedFuture* future = nullptr;    ///< shown as a second branch; may be null
-  RuleWatch* rules = nullptr;           ///< shown in a row of their own; may be null
+  ComparedSessions* compared = nullptr;  ///< a row each; may be null
+  AbandonedFuture* future = nullptr;     ///< shown as a second branch; may be null
+  RuleWatch* rules = nullptr;            ///< shown in a row of their own; may be null
 };
 
 QWidget* makeTimelineDock(const TimelineContext& context, QWidget* parent);

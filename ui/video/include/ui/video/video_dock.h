@@ -13,13 +13,17 @@ class QWidget;
 
 namespace pitchboard::ui {
 
+class NoteBoard;
 class ReplayController;
+class SessionRecording;
 class ShownMoment;
 
 /// All must outlive the dock.
 struct VideoDockParts {
   ShownMoment* shown = nullptr;
-  ReplayController* replay = nullptr;  ///< beside whose recording the alignment is kept
+  ReplayController* replay = nullptr;     ///< beside whose recording the alignment is kept
+  SessionRecording* recording = nullptr;  ///< the videos go with what it records
+  NoteBoard* notes = nullptr;             ///< what is drawn on pictures; may be null
 };
 QWidget* makeVideoDock(const VideoDockParts& parts, QWidget* parent);
 

@@ -26,7 +26,7 @@ namespace pitchboard::ui {
 class AbandonedFuture;
 class Alarms;
 class AttachedBoards;
-class ComparedSession;
+class ComparedSessions;
 class Explorer;
 class FieldOnly;
 class FieldView;
@@ -36,6 +36,7 @@ class LiveController;
 class LiveOverlay;
 class MatchController;
 class NetworkShare;
+class NoteBoard;
 class RuleWatch;
 class NoticeBar;
 class PlotTarget;
@@ -66,7 +67,7 @@ class MainWindow : public QMainWindow {
   NoticeBar* notices() const { return m_notices; }
   ScenarioFiles* files() const { return m_files; }
   SessionFiles* sessions() const { return m_sessions; }
-  ComparedSession* compared() const { return m_compared; }
+  ComparedSessions* compared() const { return m_compared; }
   AbandonedFuture* future() const { return m_future; }
   SessionRecording* recording() const { return m_recording; }
   ReplayController* replay() const { return m_replay; }
@@ -95,6 +96,7 @@ class MainWindow : public QMainWindow {
 
   /// Restores the layout of the docks, or the default layout if that is not possible.
   void restoreLayout();
+  void restorePlace();
   void resetLayout();
   /// Offers to remove blackboards that an earlier run left behind.
   void offerToRemoveOrphans();
@@ -150,7 +152,7 @@ class MainWindow : public QMainWindow {
   AttachedBoards* m_boards;
   FieldView* m_field;
   LiveOverlay* m_overlay;
-  ComparedSession* m_compared;
+  ComparedSessions* m_compared;
   NoticeBar* m_notices;
   TransportBar* m_bar;
   StudioStatusBar* m_status;
@@ -159,6 +161,7 @@ class MainWindow : public QMainWindow {
   Explorer* m_explorer;
   Rerunner* m_rerunner;
   NetworkShare* m_share;
+  NoteBoard* m_noteBoard;
   RuleWatch* m_rules;
   PlotsDock* m_plotsDock = nullptr;
   FieldOnly* m_fieldOnly;

@@ -30,11 +30,13 @@ namespace pitchboard::link {
 /// behaviour (decision only), a runtime profile (.json), or a program with its arguments, which may
 /// contain ${key} and the like.
 struct RerunProcess {
-  std::string name;     ///< "decision"
+  std::string name;     ///< "decision"; empty: every process of the runtime profile `program`
   std::string program;  ///< "./decide.py"
+  bool operator==(const RerunProcess&) const = default;
 };
 
-/// Reads "decision=./decide.py". Fails with ParseError.
+/// Reads "decision=./decide.py", or a runtime profile as runtimeChoiceFromText() does: "team.json".
+/// Fails with ParseError.
 Result<RerunProcess> rerunProcessFromText(std::string_view text);
 /// Returns a RerunProcess::program: the file of that name beside the session's file if there is one
 /// and none in the working directory; else the same.
@@ -124,9 +126,10 @@ struct RerunPlan {
     bool isRecorded = false;  ///< otherwise there is nothing to compare it with
   };
   std::string robot;
-  std::vector<Output> outputs;  ///< what the processes write, in the order of the map
-  /// What ran as the first of the processes, as RerunProcess::program; empty if it is not known.
-  std::string recorded;
+  std::vector<Output> outputs;          ///< what the processes write, in the order of the map
+  std::vector<RerunProcess> processes;  ///< that run; whole profiles as what they consist of
+  /// What ran as each of the processes when it was recorded; `program` is empty if it is not known.
+  std::vector<RerunProcess> recorded;
   std::vector<std::string> missing;            ///< what they read and was not recorded: they read 0
   std::vector<std::string> notes;              ///< sentences, as RerunOptions::note gets them
   double start = 0.0, begin = 0.0, end = 0.0;  ///< s: played from, compared from and until

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <robotlink/frame/match_frame.h>
-#include <telemetry/wire/meanings.h>
+#include <telemetry/formats/meanings.h>
 
 namespace pitchboard::link {
 

@@ -12,7 +12,7 @@
 #include <base/game.h>
 #include <base/geometry.h>
 #include <base/team_color.h>
-#include <telemetry/wire/link_health.h>
+#include <telemetry/monitor/link_health.h>
 
 namespace pitchboard::link {
 

@@ -68,9 +68,11 @@ enum class MatchEventKind : std::uint8_t {
   LetGo,           ///< robots stopped following a recording; detail: why
   Undone,          ///< everything that followed from `cause` was undone
   Bookmark,        ///< detail: the user's note
-  Other            ///< a kind that this version does not know; detail: its name in the file
+  Other,           ///< a kind that this version does not know; detail: its name in the file
+  RuleBroken,      ///< robot; value: the severity, 0 to 2; detail: what the rule says, and the same
+  Note             ///< drawn by the user; detail: its text, or what was drawn where
 };
-inline constexpr std::size_t matchEventKindCount = 47;
+inline constexpr std::size_t matchEventKindCount = 49;
 
 /// The half of the field that a team defends.
 enum class Side : std::uint8_t { Left, Right };

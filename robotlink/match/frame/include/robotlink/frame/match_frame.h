@@ -21,7 +21,7 @@
 #include <simcore/world/referee_rules.h>
 #include <simcore/world/rigid_body_state.h>
 #include <simcore/world/snapshot.h>
-#include <telemetry/wire/drawing_store.h>
+#include <telemetry/drawings/drawing_store.h>
 
 namespace pitchboard::link {
 
@@ -68,7 +68,7 @@ struct MatchFrame {
   /// Speed of the slowest team program, times real time; nothing if all keep up.
   std::optional<double> slowestTeamProgram;
   bool nobodyPlays = false;         ///< SimulatedMatch::nobodyPlays()
-  bool inLockStep = true;           ///< the match waits for separate processes in every tick
+  bool inLockStep = false;          ///< the match waits in every tick for some separate process
   std::string waitsFor;             ///< "B2 decision": delays lock-step; empty: none does
   std::string finishedBy;           ///< "goal", "ball_out", "duration"; empty unless finished
   std::uint64_t droppedEvents = 0;  ///< events that were not taken in time

@@ -51,9 +51,10 @@ struct RobotView {
   std::optional<int> boardKey;                ///< key of its blackboard; 0: on the heap
   BoardContents board;                        ///< if attached, or sent by its robot
   std::string behaviour;
-  std::string ownName;    ///< its name in the team setup
-  std::string runtime;    ///< the runtime that was chosen for it; may be empty
-  bool ofOthers = false;  ///< its processes, if any, were not started by us
+  std::vector<std::string> programs;  ///< files of the team programs that run for it: "chase.py"
+  std::string ownName;                ///< its name in the team setup
+  std::string runtime;                ///< the runtime that was chosen for it; may be empty
+  bool ofOthers = false;              ///< its processes, if any, were not started by us
   std::optional<CognitionDebug>
       cognitionDebug;  ///< particles and path, if it sends them (MatchOptions::cognitionDebug)
   /// Shared by many frames, because processes seldom change. Read it with processes().
@@ -73,9 +74,11 @@ struct RobotView {
 /// Everything that is known of a robot. If the truth is unknown (MatchFrame::truthKnown), the pose
 /// of the snapshot is what the robot believes.
 struct RobotFrame : sim::RobotSnapshot, RobotView {
-  RobotUid uid;      ///< who it is, whatever becomes known of it; unique in a frame
-  RobotKey key;      ///< the number and team under which it plays or sends now
-  std::string name;  ///< robotName() of the key
+  RobotUid uid;  ///< who it is, whatever becomes known of it; unique in a frame
+  RobotKey key;  ///< the number and team under which it plays or sends now
+  /// robotName() of the key. In a recording the name of its rows, if that tells it from another
+  /// robot with its number: "B1 rerun".
+  std::string name;
 
   /// Returns the number of its blackboard in a simulated match; 0 for other robots.
   RobotId slot() const { return identity.id; }

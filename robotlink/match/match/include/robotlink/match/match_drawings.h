@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <telemetry/wire/drawing_store.h>
-#include <telemetry/wire/udp_receiver.h>
+#include <telemetry/drawings/drawing_store.h>
+#include <telemetry/sockets/udp_receiver.h>
 
 namespace pitchboard::link {
 

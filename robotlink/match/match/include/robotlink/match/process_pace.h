@@ -45,6 +45,8 @@ class ProcessPace {
   void countTick() { ++m_ticks; }
   /// Returns whether the match waits for separate reference processes in every tick.
   bool inLockStep() const;
+  /// Returns whether there is a process for whose cycles the match waits now.
+  bool waitsForProcesses() const;
 
   // Team programs.
   /// Returns the pace to use next, between the current pace `now` and the wanted one. It is not

@@ -11,7 +11,7 @@
 #include <robotlink/frame/match_frame.h>
 #include <robotlink/scenario/scenario.h>
 #include <simcore/world/world_state.h>
-#include <telemetry/wire/gamecontroller.h>
+#include <telemetry/referee/gamecontroller.h>
 
 namespace pitchboard::link {
 

@@ -64,6 +64,7 @@ struct RobotSetup {
   IntVar cycle{-1};        ///< variable in which its program reports the end of each cycle
   bool facesLeft = false;  ///< direction of attack that its processes were started with
   std::vector<std::shared_ptr<SlotProcess>> processes;
+  std::vector<std::string> programs;  ///< files of its team programs, each once: "chase.py"
 };
 
 struct RobotSlot : RobotSetup {

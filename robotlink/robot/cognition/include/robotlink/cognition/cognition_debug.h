@@ -23,7 +23,7 @@
 #include <base/ids.h>
 #include <base/result.h>
 #include <base/unique_fd.h>
-#include <telemetry/wire/udp_sender.h>
+#include <telemetry/sockets/udp_sender.h>
 
 namespace pitchboard::link {
 

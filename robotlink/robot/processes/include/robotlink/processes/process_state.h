@@ -35,6 +35,9 @@ enum class ProcessClock : std::uint8_t {
 /// Returns why the clocks of a program do not follow the match, as a clause; empty if they do.
 const char* whyRealTime(ProcessClock clock);
 
+/// Returns the file that a command runs, without its folder: the script of an interpreter.
+std::string programOf(const std::vector<std::string>& command);
+
 struct ProcessStatus {
   static constexpr std::size_t maxLastLines = 5;
   int id = 0;  ///< unique within a manager
@@ -68,8 +71,7 @@ struct ProcessStatus {
   std::uint64_t linesLeftOut = 0;
   /// Returns whether it dies again and again, or has died and is not started again.
   bool keepsDying() const { return deaths > 1 || (deaths > 0 && state == ProcessState::Ended); }
-  /// Returns the file that the command runs, without its folder: the script of an interpreter.
-  std::string program() const;
+  std::string program() const { return programOf(command); }
   bool operator==(const ProcessStatus&) const = default;
 };
 

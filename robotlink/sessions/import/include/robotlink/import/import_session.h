@@ -18,16 +18,10 @@
 
 namespace pitchboard::link {
 
-/// Which time of a message counts.
-enum class ImportClock : std::uint8_t {
-  Auto,    ///< as Header, unless the first of a file is more than a minute from its log time
-  Header,  ///< when it was measured, if the message says so
-  Log      ///< when it was recorded
-};
-
 struct ImportOptions {
   std::optional<TopicMapping> mapping;  ///< empty: builtInMapping()
-  ImportClock clock = ImportClock::Auto;
+  /// Of all recordings; Auto: what the mapping says of each.
+  RecordingClock clock = RecordingClock::Auto;
   IfExists ifExists = IfExists::Refuse;
   std::string program = "pitchboard";  ///< name and version, for the session
 };
@@ -45,7 +39,12 @@ struct ImportReport {
   std::string summary() const;
 };
 
-/// Imports files or folders into a new session. Several files of one format are a split recording.
+/// Returns the mapping that was saved beside a recording: "walk.mapping.json" for "walk.mcap" and
+/// for a folder "walk". It need not exist.
+std::string mappingBeside(const std::string& recording);
+
+/// Imports files or folders into a new session. Several files of one format are a split recording,
+/// but those that the mapping names as recordings of their own.
 /// `progress` is called with 0 to 1; if it returns false, the import stops and nothing is written.
 /// Fails as openRecordings(), FileTarget and SessionWriter do, and with NotFound if nothing in the
 /// recordings is understood.

@@ -14,7 +14,7 @@
 #include <base/geometry.h>
 #include <base/robot_key.h>
 #include <base/team_color.h>
-#include <telemetry/wire/team_monitor.h>
+#include <telemetry/monitor/team_monitor.h>
 
 namespace pitchboard::link {
 

@@ -17,7 +17,6 @@
 #include <robotlink/live/live_observer.h>
 #include <robotlink/match/tick_observer.h>
 #include <telemetry/foxglove/foxglove_server.h>
-#include <telemetry/series/losable.h>
 #include <telemetry/series/row_sink.h>
 #include <telemetry/session/session_types.h>
 
@@ -26,7 +25,8 @@ namespace pitchboard::link {
 /// Converts seconds of a source that began at this time to ns since 1970.
 std::function<std::uint64_t(double)> logTimesFrom(telemetry::WallTime start);
 
-/// Topics: "/robots/B1/row", "/match/row", "/events", "/log" and "/field".
+/// Topics: those of rows in session files ("/robots/B1/row", "/match/row"), "/events", "/log" and
+/// "/field". Messages of rows and of the field are made when somebody reads them.
 class ServedMatch : public telemetry::RowSink {
  public:
   /// The server must live as long. `logTime` converts seconds of the source to ns since 1970.
@@ -43,11 +43,11 @@ class ServedMatch : public telemetry::RowSink {
   void setTime(double time);
 
  private:
+  struct Columns;
   struct Group {
     telemetry::GroupInfo info;
     std::uint32_t channel = 0;
-    std::vector<telemetry::Slot> places;
-    std::vector<telemetry::Losable> losable;
+    std::shared_ptr<const Columns> columns;  ///< shared with messages that nobody asked for yet
   };
 
   telemetry::FoxgloveServer& m_server;

@@ -13,9 +13,9 @@
 #include <robotlink/session/live_memory.h>
 #include <robotlink/session/match_sampler.h>
 #include <robotlink/session/state_archive.h>
+#include <telemetry/formats/profile.h>
 #include <telemetry/series/series_store.h>
 #include <telemetry/session/session_writer.h>
-#include <telemetry/wire/profile.h>
 
 namespace pitchboard::link {
 

@@ -54,6 +54,7 @@ class MatchSampler : public TickObserver {
     sim::RobotIdentity identity;
     int key = 0;
     std::string behaviour;
+    std::vector<std::string> programs;
     double radius = 0.0, fieldOfView = 0.0, visionRange = 0.0;  // m, rad, m
   };
   struct Outlet {

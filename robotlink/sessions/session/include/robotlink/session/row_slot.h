@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include <robotlink/frame/teams.h>
+#include <telemetry/formats/meanings.h>
 #include <telemetry/series/series_types.h>
-#include <telemetry/wire/meanings.h>
 
 namespace pitchboard::link {
 
