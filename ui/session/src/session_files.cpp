@@ -28,6 +28,7 @@ namespace {
 using Poses = link::MomentOptions::Poses;
 
 const QString suffix = QStringLiteral("mcap");
+const QString sessionFilter = QStringLiteral("Sessions (*.mcap);;All files (*)");
 
 QStringList droppedSessions(const QMimeData* data) {
   QStringList paths;
@@ -228,10 +229,6 @@ void SessionFiles::askHowToJoin(const QString& recording) {
                                 });
   dialog->open();
 }
-
-namespace {
-const QString sessionFilter = QStringLiteral("Sessions (*.mcap);;All files (*)");
-}  // namespace
 
 QString SessionFiles::askForFile(const QString& title) {
   return askToOpen(m_window, title, sessionFilter);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// The names in profile files, in the order of the enumerations of profile.h. Any
-// thread.
+// The names in profile files, in the order of the enumerations of profile.h. Any thread.
 
 #include <array>
 #include <string_view>
