@@ -169,10 +169,26 @@ map-topics() {
   "ball": {"topic": "/robot3/ball", "x": "x_mm", "y": "y_mm", "unit": "mm", "seen": "seen"}}]}
 END
   theme=light studio walk.mcap
-  find "Map topics of a recording"
+  find "Map topics of recordings"
   dialog=$(xdotool search --sync --onlyvisible --name "Map topics" | tail -1)
   xdotool windowfocus "$dialog" && sleep 2
   import -window "$dialog" map-topics.png
+  kill "$window" && wait "$window" 2>/dev/null || true
+}
+align-recordings() {
+  page other-robots.md team.json
+  page other-robots.md log.yaml
+  mv team.json log.mapping.json
+  cp "$root/tests/data/recordings/robot_walks.mcap" robot3.mcap
+  theme=light studio
+  find "Map topics of recordings"
+  files=$(xdotool search --sync --onlyvisible --name "Map topics of recordings" | tail -1)
+  xdotool windowfocus "$files" && sleep 1
+  xdotool type --delay 20 '"log.yaml" "robot3.mcap"' && xdotool key alt+o
+  dialog=$(xdotool search --sync --onlyvisible --name "Map topics of 2" | tail -1)
+  xdotool windowfocus "$dialog" && sleep 2
+  xdotool key alt+l Down && sleep 3
+  import -window "$dialog" align-recordings.png
   kill "$window" && wait "$window" 2>/dev/null || true
 }
 rollouts() {
@@ -461,7 +477,7 @@ END
   rsvg-convert worlds.svg -o worlds.png
 }
 
-[ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots map-topics rollouts processes live plots replay experiments \
+[ $# -gt 0 ] || set -- first-minute studio-dark studio-light scenario referee drawings blackboard advisor behaviours agent other-robots map-topics align-recordings rollouts processes live plots replay experiments \
   explore calibrate learning tutorial-compare tutorial-failing-test tutorial-review tutorial-lost-ball tutorial-rerun tutorial-rerun-studio tutorial-rerun-follow tutorial-rerun-join building cli conformance continuous-integration file-formats library performance plays rules statistics video worlds
 for name in "$@"; do
   "$name"

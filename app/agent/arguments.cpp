@@ -67,30 +67,6 @@ Result<std::vector<std::string>> globsFrom(std::string_view text) {
   return globs;
 }
 
-/// "decision=460,localization=459"
-Result<std::vector<std::pair<std::string, int>>> cyclesFrom(std::string_view text) {
-  std::vector<std::pair<std::string, int>> cycles;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string_view one = text.substr(at, comma - at);
-    const std::size_t equals = one.find('=');
-    const std::string_view name = one.substr(0, equals);
-    const bool isName = !name.empty() && std::ranges::all_of(name, [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-    });
-    if (equals == std::string_view::npos || !isName) {
-      return invalid(
-          "--record-cycles names processes in small letters and their words, such as decision=460, "
-          "not \"" +
-          std::string(one.substr(0, 40)) + "\"");
-    }
-    cycles.emplace_back(name, TRY(numberIn<int>("a word of --record-cycles", one.substr(equals + 1),
-                                                0, 511, "0 to 511")));
-    at = comma + 1;
-  }
-  return cycles;
-}
-
 Result<void> takeOption(Arguments& arguments, std::string_view option, std::string_view value) {
   if (option == "--robot") {
     arguments.robot = TRY(numberIn<int>(option, value, 1, telemetry::Pb2Limits::robots, "1 to 64"));
@@ -117,7 +93,7 @@ Result<void> takeOption(Arguments& arguments, std::string_view option, std::stri
   } else if (option == "--record-keep") {
     arguments.recordKeep = TRY(numberIn<double>(option, value, 2.0, 1e7, "2 to 10000000 MB"));
   } else if (option == "--record-cycles") {
-    arguments.cycles = TRY(cyclesFrom(value));
+    arguments.cycles = TRY(link::cycleWordsFromText(value, option));
   } else if (value == "none") {
     arguments.sends = false;
   } else {
@@ -173,7 +149,7 @@ Options:
   --limit KBIT/S        Stay below this bandwidth, at least 16. A quarter of it is kept for values
                         that have not changed
   --catalog FILE        The team's own map of variables: .json, .h, .hpp or .py (default: the
-                        published map)
+                        published map), or "extended": with those of the reference processes
   --key K               Key of the blackboard instead of 100 x robot number
   --record FILE|FOLDER  Record every change of the blackboard, of all variables, into a new session
                         file, or in this folder in files named by robot and time
@@ -181,7 +157,8 @@ Options:
   --record-size MB      Continue in a new file at this size (default 100)
   --record-cycles P=W   Int variables in which programs announce their cycles, such as
                         decision=460,localization=459: the blackboard is read at each beginning
-                        and end, and rerun runs exactly these cycles
+                        and end, and rerun runs exactly these cycles. decision=460:461 records the
+                        program's clock, too (pitchboard-robot --announce-cycles)
   --record-keep MB      Delete the oldest files to stay below this size (default: keep all)
   -h, --help            Print this page
   --version             Print the version
@@ -234,15 +211,11 @@ Result<Arguments> parseArguments(std::span<const char* const> argv) {
 
 Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
                                          const link::SegmentLayout& layout,
-                                         std::span<const std::pair<std::string, int>> cycles) {
+                                         std::span<const link::CycleWords> cycles) {
   if (cycles.empty()) return catalog;
   auto map = nlohmann::ordered_json::parse(catalog.toJson(layout));
   map.erase("segment");  // the map is for any
-  for (const auto& [process, word] : cycles) {
-    std::string name = process + std::string(link::cycleSuffix);
-    for (char& letter : name) {
-      if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
-    }
+  const auto add = [&](const std::string& name, int word) -> Result<void> {
     for (const link::Variable& known : catalog.variables()) {
       const bool isThere = known.type == link::VariableType::Int && known.index == word;
       if (!isThere || known.name == name) continue;
@@ -250,6 +223,12 @@ Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
                      "; choose one that the map leaves free");
     }
     map["int"][name] = word;
+    return {};
+  };
+  for (const link::CycleWords& words : cycles) {
+    TRY(add(link::cycleVariable(words.process, link::cycleSuffix), words.cycle.index));
+    if (!words.clock) continue;
+    TRY(add(link::cycleVariable(words.process, link::clockSuffix), words.clock->index));
   }
   return link::VariableCatalog::fromJson(map.dump(), "--record-cycles");
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <base/result.h>
+#include <robotlink/blackboard/cycle_words.h>
 #include <robotlink/blackboard/variable_catalog.h>
 #include <telemetry/sockets/datagram.h>
 
@@ -31,18 +32,17 @@ struct Arguments {
 
   int robot = 0;
   std::optional<int> key;
-  std::string catalog;             ///< a file; empty: the published map
+  std::string catalog;             ///< a file, or extendedMap; empty: the published map
   double rate = 20.0;              ///< samples of the blackboard per second
   std::vector<std::string> globs;  ///< empty: every variable
   bool sends = true;               ///< false: --to none
   std::vector<Receiver> receivers;
-  std::optional<double> limit;       ///< kbit/s
-  std::string record;                ///< a new file or a folder; empty: nothing is recorded
-  double recordRate = 100.0;         ///< Hz
-  double recordSize = 100.0;         ///< MB; of one file
-  std::optional<double> recordKeep;  ///< MB; of all files, of which the oldest are deleted
-  /// Processes, and the int variables in which they announce their cycles.
-  std::vector<std::pair<std::string, int>> cycles;
+  std::optional<double> limit;           ///< kbit/s
+  std::string record;                    ///< a new file or a folder; empty: nothing is recorded
+  double recordRate = 100.0;             ///< Hz
+  double recordSize = 100.0;             ///< MB; of one file
+  std::optional<double> recordKeep;      ///< MB; of all files, of which the oldest are deleted
+  std::vector<link::CycleWords> cycles;  ///< where programs announce their cycles
   bool help = false, version = false;
 
   int boardKey() const { return key.value_or(100 * robot); }
@@ -55,15 +55,18 @@ struct Arguments {
 
 extern const char* const helpText;
 
+/// Instead of a file: the published map with the words of our own processes.
+inline constexpr std::string_view extendedMap = "extended";
+
 /// Parses the arguments, without the program's name. Fails with InvalidArgument; the message names
 /// the option and its valid values.
 Result<Arguments> parseArguments(std::span<const char* const> argv);
 
-/// Returns the map with the variables of --record-cycles, such as DECISION_CYCLE. Fails with
-/// InvalidArgument if a word has another variable.
+/// Returns the map with the variables of --record-cycles, such as DECISION_CYCLE and
+/// DECISION_CLOCK. Fails with InvalidArgument if a word has another variable.
 Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
                                          const link::SegmentLayout& layout,
-                                         std::span<const std::pair<std::string, int>> cycles);
+                                         std::span<const link::CycleWords> cycles);
 
 /// Returns whether the name matches. `*` stands for any characters, `?` for one.
 bool matchesGlob(std::string_view glob, std::string_view name);

@@ -148,7 +148,9 @@ Result<void> run(const Arguments& arguments) {
   link::SegmentLayout layout;
   const link::VariableCatalog map =
       arguments.catalog.empty() ? link::VariableCatalog::published()
-                                : TRY(link::VariableCatalog::fromFile(arguments.catalog, layout));
+      : arguments.catalog == extendedMap
+          ? link::VariableCatalog::extended()
+          : TRY(link::VariableCatalog::fromFile(arguments.catalog, layout));
   const link::VariableCatalog catalog = TRY(withCycles(map, layout, arguments.cycles));
   std::vector<link::Variable> chosen;
   if (arguments.sends) chosen = TRY(chosenVariables(map, arguments.globs));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/import/import_session.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -16,7 +17,7 @@ namespace {
 
 struct ImportCommand {
   std::vector<std::string> files;
-  std::string output, mapping, clock = "auto";
+  std::string output, mapping, clock = "auto", align;
   bool printMap = false, force = false, progress = false;
 };
 
@@ -26,6 +27,10 @@ Result<link::ImportOptions> importOptions(const ImportCommand& command) {
   options.clock = command.clock == "header" ? link::RecordingClock::Header
                   : command.clock == "log"  ? link::RecordingClock::Log
                                             : link::RecordingClock::Auto;
+  const auto event = std::ranges::find(link::alignEventNames, command.align);
+  if (event != link::alignEventNames.end()) {
+    options.align = static_cast<link::AlignEvent>(event - link::alignEventNames.begin());
+  }
   if (!command.mapping.empty()) options.mapping = TRY(link::mappingFromFile(command.mapping));
   return options;
 }
@@ -69,11 +74,12 @@ void addImportCommand(CLI::App& parent, int& exitCode) {
       "import",
       "Make a session of what other programs recorded. It reads MCAP (ROS 2, ROS 1, JSON, "
       "protobuf), rosbag2 (sqlite3), CSV, and the GameController's log. A folder or several files "
-      "are one recording.\n"
+      "are one recording; with --align each is a recording of its own.\n"
       "What cannot be read is printed to stderr with its count.\n"
       "Examples: pitchboard-cli import rosbag2_2026_07_01/ -o match.mcap\n"
       "          pitchboard-cli import robot.mcap --map team.json -o match.mcap\n"
-      "          pitchboard-cli import robot.mcap --print-map > team.json");
+      "          pitchboard-cli import robot.mcap --print-map > team.json\n"
+      "          pitchboard-cli import log.yaml robot3/ robot4/ --align kick-off -o match.mcap");
   command->add_option("FILE", options->files, "The recordings")->required();
   command->add_option("-o,--output", options->output, "The new session")->type_name("SESSION");
   command
@@ -89,6 +95,15 @@ void addImportCommand(CLI::App& parent, int& exitCode) {
           "recorded), or auto (header, unless the clocks differ by more than a minute)")
       ->check(CLI::IsMember({"auto", "header", "log"}))
       ->capture_default_str();
+  command
+      ->add_option(
+          "--align", options->align,
+          "Move recordings of one match, whatever their clocks say, so that an event is at "
+          "the same time in all: kick-off (PLAYING begins), or set (SET before it, if "
+          "robots are told of the kick-off later than the referee's log has it)")
+      ->type_name("EVENT")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(link::alignEventNames.begin(), link::alignEventNames.end())));
   command->add_flag("--print-map", options->printMap,
                     "Print the mapping that is used without --map, and import nothing");
   addForce(*command, options->force, "Replace the session if it exists");

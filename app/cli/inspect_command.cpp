@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <robotlink/import/aligned_recordings.h>
 #include <robotlink/session/session_events.h>
 
 #include <array>
@@ -122,6 +123,9 @@ void printText(const SessionReader& session, const InspectOptions& options) {
     if (info.seed) std::printf(", seed %llu", static_cast<unsigned long long>(*info.seed));
     std::printf("\n");
   }
+  if (const auto aligned = link::alignmentText(info)) {
+    std::printf("%s\n", printable(*aligned).c_str());
+  }
   if (const auto range = session.range()) {
     std::printf("%.3f s to %.3f s\n", range->begin, range->end);
   }
@@ -192,18 +196,18 @@ void addInspectCommand(CLI::App& parent, int& exitCode) {
   auto options = std::make_shared<InspectOptions>();
   CLI::App* command =
       parent.add_subcommand("inspect",
-                            "Summarize a recording and check all of it. Of several, or of folders, "
-                            "it prints a line each, without checking them: date, length, score, "
-                            "teams, robots, events and notes. Exits with 1 if one is "
-                            "truncated or damaged, or if "
-                            "part of it is unknown, as in files of other programs.\n"
+                            "Summarize a recording and check all of it. For several recordings, "
+                            "or a folder of them, print one line each without checking them: date, "
+                            "length, score, teams, robots, events and notes. Exits with 1 if a "
+                            "recording is truncated or damaged, or if part of it is unknown, as in "
+                            "files of other programs.\n"
                             "Examples: pitchboard-cli inspect match.mcap --events\n"
                             "          pitchboard-cli inspect matches/");
-  command->add_option("file", options->places, "The recording, or several and folders of them")
+  command->add_option("file", options->places, "One or more recordings, or folders of recordings")
       ->required()
       ->type_name("FILE");
-  command->add_flag("--json", options->json, "One JSON object, or one for each of several");
-  command->add_flag("--csv", options->csv, "A line with commas per recording, and a header")
+  command->add_flag("--json", options->json, "Print a JSON object for each recording");
+  command->add_flag("--csv", options->csv, "Print a line of CSV for each recording, after a header")
       ->excludes("--json");
   command->add_flag("--events", options->events, "List the events");
   command->add_flag("--progress", options->progress,

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 
 #include <base/try.h>
 #include <robotlink/live/live_watch.h>
@@ -135,11 +136,14 @@ void reportEnd(const link::LiveDetails& details, std::uint64_t left) {
   const telemetry::TeamStatus& team = details.team;
   const telemetry::ReceiverStatus& network = details.network;
   const std::uint64_t here = network.queueDrops + left;
+  std::set<RobotKey> robots;
+  for (const telemetry::RobotStatus& robot : team.robots) robots.insert(robot.key);
+  for (const link::SentStatus& sent : details.sent) robots.insert(sent.robot);
   const std::uint64_t bad = team.errors.messages() + details.unknownReferee + details.badVariables;
   std::fprintf(
       stderr, "%llu datagram%s from %zu robot%s; lost: %llu in the kernel, %llu here; bad: %llu%s",
       static_cast<unsigned long long>(network.datagrams()), network.datagrams() == 1 ? "" : "s",
-      team.robots.size(), team.robots.size() == 1 ? "" : "s",
+      robots.size(), robots.size() == 1 ? "" : "s",
       static_cast<unsigned long long>(network.kernelDrops()), static_cast<unsigned long long>(here),
       static_cast<unsigned long long>(bad), refusedText(details).c_str());
   for (const telemetry::RobotStatus& robot : team.robots) {

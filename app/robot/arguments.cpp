@@ -5,6 +5,7 @@
 
 #include <app/usage.h>
 #include <base/try.h>
+#include <robotlink/blackboard/cycle_words.h>
 #include <robotlink/blackboard/match_number.h>
 #include <robotlink/blackboard/system_v.h>
 #include <robotlink/cognition/process_registry.h>
@@ -39,6 +40,29 @@ std::string checkModel(const std::string& text) {
                          ? link::loadRobotModel(text)
                          : link::robotModelFromText(text, "--robot-model");
   return model ? std::string() : model.error().text();
+}
+
+std::string checkCycles(const std::string& text) {
+  const auto all = link::cycleWordsFromText(text, "--announce-cycles");
+  if (!all) return all.error().message;
+  const auto usedBy = [](link::IntVar word) {
+    for (const link::Variable& known : link::VariableCatalog::extended().variables()) {
+      const bool isInt = known.type == link::VariableType::Int;
+      const int offset = isInt ? 0 : link::Blackboard::floatOffset;
+      if (known.index + offset == word.index) return known.name;
+    }
+    return std::string();
+  };
+  for (const link::CycleWords& words : *all) {
+    for (const link::IntVar word : {words.cycle, words.clock.value_or(words.cycle)}) {
+      const std::string name = usedBy(word);
+      if (!name.empty()) {
+        return "word " + std::to_string(word.index) + " is " + name +
+               "; choose one that the map leaves free, such as 460";
+      }
+    }
+  }
+  return {};
 }
 
 void addCommunicationOptions(CLI::App& command, Arguments& a) {
@@ -200,6 +224,13 @@ void addOptions(CLI::App& command, Arguments& a) {
   command.add_flag("--published-localization", a.process.publishedLocalization,
                    "Localization with the published filter's parameters");
   command
+      .add_option("--announce-cycles", a.announceCycles,
+                  "Announce the cycles of processes in int variables of the blackboard, and the "
+                  "time of their clocks in ms in a second one, for pitchboard-agent "
+                  "--record-cycles: decision=460:461,localization=462:463")
+      ->type_name("P=W:C,...")
+      ->check(checkCycles);
+  command
       .add_option("--advisor-memory", a.process.advisor.memory,
                   "Advisor: file with what it learns of the opponents; read at the start, written "
                   "when play stops and at the end")
@@ -212,7 +243,7 @@ void addOptions(CLI::App& command, Arguments& a) {
        "--referee-team", "--set-play", "--shirt", "--referee-port", "--debug-port"});
   shared::addGroup(command, "Tuning",
                    {"--distance-to-kick", "--particles", "--seed", "--published-localization",
-                    "--advisor-memory", "--advisor-memory-read-only"});
+                    "--advisor-memory", "--advisor-memory-read-only", "--announce-cycles"});
 }
 
 std::vector<std::string> givenOptions(const CLI::App& command) {

@@ -29,6 +29,7 @@ struct Arguments {
   std::optional<double> distanceToKick;  // instead of the behaviour's
   double telemetryRate = 1.0;            // Hz
   std::optional<int> cognitionDebugPort;
+  std::string announceCycles;  ///< as cycleWordsFromText() reads it; empty: none are announced
   link::ProcessOptions process;
 
   int blackboardKey() const;  // valid after settle()

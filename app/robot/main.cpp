@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <exception>
+#include <memory>
 
 #include <app/command_line.h>
 #include <base/try.h>
@@ -153,6 +154,17 @@ Result<link::Blackboard> joinBlackboard(int key) {
   return link::SystemVSegments::open(key, link::AttachMode::AttachOnly);
 }
 
+/// Null: the cycles of this process are not announced.
+std::unique_ptr<link::CycleAnnouncer> announcerOf(std::string_view process,
+                                                  const Arguments& arguments,
+                                                  link::Blackboard& board) {
+  if (arguments.announceCycles.empty()) return nullptr;
+  const auto all = link::cycleWordsFromText(arguments.announceCycles, "--announce-cycles");
+  if (!all) return nullptr;  // the option was checked
+  const auto found = std::ranges::find(*all, process, &link::CycleWords::process);
+  return found == all->end() ? nullptr : std::make_unique<link::CycleAnnouncer>(board, *found);
+}
+
 Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& arguments) {
   TRY(settle(command, arguments));
   if (arguments.lockStepSlot) {
@@ -175,11 +187,12 @@ Result<void> run(const link::ProcessInfo& info, CLI::App& command, Arguments& ar
   std::fflush(stdout);
   const RobotId robot = arguments.process.robot;
   link::CognitionDebugSender* const shown = display ? &*display : nullptr;
+  const auto announcer = announcerOf(info.name, arguments, board);
   if (arguments.process.lockStepSlot) {
     return runInLockStep(std::move(process), make, board, robot, *arguments.process.lockStepSlot,
-                         shown);
+                         shown, announcer.get());
   }
-  runUntilStopped(*process, board, robot, shown);
+  runUntilStopped(*process, board, robot, shown, announcer.get());
   return {};
 }
 

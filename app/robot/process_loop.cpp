@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <thread>
 
 #include <base/try.h>
 #include <robotlink/processes/lock_step_orders.h>
@@ -44,6 +45,21 @@ class Display {
 
 constexpr std::chrono::milliseconds displayPeriod{200};
 
+/// Nobody writes while the match waits: what is read in this time are the inputs of an announced
+/// cycle, and then its outputs.
+constexpr std::chrono::milliseconds readingTime{10};
+
+/// Runs one cycle, and announces it if there is an announcer.
+void step(link::CognitiveProcess& process, link::Blackboard& board, double seconds,
+          link::CycleAnnouncer* announcer, std::chrono::milliseconds reading) {
+  if (announcer == nullptr) return process.step(board, {seconds});
+  const double announced = announcer->begin(seconds);
+  std::this_thread::sleep_for(reading);
+  process.step(board, {announced});
+  announcer->end();
+  std::this_thread::sleep_for(reading);
+}
+
 }  // namespace
 
 void holdEndSignals() {
@@ -67,14 +83,15 @@ bool stopRequested(std::chrono::nanoseconds wait) {
 }
 
 void runUntilStopped(link::CognitiveProcess& process, link::Blackboard& board, RobotId robot,
-                     link::CognitionDebugSender* display) {
+                     link::CognitionDebugSender* display, link::CycleAnnouncer* announcer) {
   const auto period =
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(process.period()));
   const Clock::time_point start = Clock::now();
   Clock::time_point next = start;
   Display shown(robot, display);
   while (true) {
-    process.step(board, {std::chrono::duration<double>(Clock::now() - start).count()});
+    step(process, board, std::chrono::duration<double>(Clock::now() - start).count(), announcer,
+         std::chrono::milliseconds(0));
     shown.send(process, displayPeriod);
     next += period;
     const Clock::time_point now = Clock::now();
@@ -87,7 +104,8 @@ void runUntilStopped(link::CognitiveProcess& process, link::Blackboard& board, R
 
 Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
                            const ProcessMaker& make, link::Blackboard& board, RobotId robot,
-                           link::LockStepSlot& slot, link::CognitionDebugSender* display) {
+                           link::LockStepSlot& slot, link::CognitionDebugSender* display,
+                           link::CycleAnnouncer* announcer) {
   // While the match is paused: how soon a signal is noticed, and how often debug data is sent
   // again, because displays drop data that is not repeated.
   constexpr std::chrono::milliseconds maxWait{100}, refreshPeriod{1000};
@@ -105,7 +123,8 @@ Result<void> runInLockStep(std::unique_ptr<link::CognitiveProcess> process,
         process->resume(board);
       }
       last = cycle->seconds;
-      process->step(board, {last});
+      step(*process, board, last, announcer,
+           slot.inLockStep() ? readingTime : std::chrono::milliseconds(0));
       slot.done();
     }
     shown.send(*process, cycle ? displayPeriod : refreshPeriod);

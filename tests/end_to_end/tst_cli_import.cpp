@@ -2,6 +2,7 @@
 // `import` from the command line: a ROS 2 recording becomes a session that the other commands read.
 #include <QtTest>
 
+#include "../support/match_recordings.h"
 #include "../support/program_run.h"
 
 namespace tst_cli_import {
@@ -55,6 +56,27 @@ class TestCliImport : public QObject {
     const ProgramRun run = cli({"import", recording("robot_walks.mcap"), "--map", path("team.json"),
                                 "-o", path("red.mcap")});
     QVERIFY2(run.exitCode == 0 && run.out.contains("R3"), run.err.constData());
+  }
+
+  void recordingsAreAlignedByTheKickOff() {
+    using match_recordings::writeRefereeLog;
+    const QString log = path("log.yaml"), late = path("late.yaml"), to = path("match.mcap");
+    writeRefereeLog(log.toStdString(), {{1.0, 2, 0}, {20.0, 3, 0}, {40.0, 4, 0}});
+    writeRefereeLog(late.toStdString(), {{1.0, 2, 0}, {12.5, 3, 0}, {30.0, 4, 0}});
+    const ProgramRun run = cli({"import", log, late, "--align", "kick-off", "-o", to});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const ProgramRun info = cli({"inspect", to});
+    QVERIFY2(info.exitCode == 0 && info.out.contains("aligned by kick-off: late.yaml +7.500 s, "
+                                                     "log.yaml +0.000 s\n"),
+             info.out.constData());
+    const ProgramRun json = cli({"inspect", to, "--json"});
+    QVERIFY2(json.out.contains("\"aligned_by\":\"kick-off\""), json.out.constData());
+    const ProgramRun none = cli(
+        {"import", log, recording("json.mcap"), "--align", "kick-off", "-o", path("none.mcap")});
+    QVERIFY2(none.exitCode == 2 && none.err.contains("json.mcap") && none.err.contains("by hand"),
+             none.err.constData());
+    QVERIFY(!QFile::exists(path("none.mcap")));
+    QCOMPARE(cli({"import", log, late, "--align", "dawn", "-o", path("x.mcap")}).exitCode, 2);
   }
 
   void errorsSayWhatToDo() {

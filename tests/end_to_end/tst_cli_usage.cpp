@@ -76,7 +76,7 @@ class TestCliUsage : public QObject {
     row("record -o a.mcap --bind 127.0.0.1", "--bind only works together with --live");
     row("record -o a.mcap --live --pace free",
         "--pace and --live cannot be used together; leave out one of them");
-    row("inspect", "FILE is missing: The recording, or several and folders of them");
+    row("inspect", "FILE is missing: One or more recordings, or folders of recordings");
     row("simulate --from a.mcap --at 3 --seed 3",
         "--seed and --from cannot be used together; leave out one of them");
   }

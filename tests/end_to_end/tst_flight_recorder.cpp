@@ -172,6 +172,44 @@ for n in range(1, 61):
     QVERIFY2(begun.size() >= cycles * 3 / 4, qPrintable(QString::number(begun.size())));
     QVERIFY2(complete.size() >= cycles * 3 / 4, qPrintable(QString::number(complete.size())));
   }
+
+  /// Our own processes announce theirs with the time of their clock, so that the decision process
+  /// runs again exactly.
+  void ourOwnCyclesRunAgainExactly() {
+    write("cycles.json", R"({"version": 1, "name": "cycles",
+      "values": {"announce_cycles": "decision=460:461,localization=462:463"}, "processes": [
+        {"name": "localization", "reference": "localization"},
+        {"name": "decision", "reference": "decision"},
+        {"name": "planning", "reference": "planning"}]})");
+    QProcess agent;
+    agent.start(QStringLiteral(PITCHBOARD_BIN "/pitchboard-agent"),
+                {"--robot", "1", "--key", QString::number(testKeyBase() + 100), "--to", "none",
+                 "--record", path("own.mcap"), "--record-rate", "500", "--catalog", "extended",
+                 "--record-cycles", "decision=460:461,localization=462:463"});
+    QByteArray reported;
+    QTRY_VERIFY((reported += agent.readAllStandardError(), reported.contains("waiting for")));
+    const ProgramRun match =
+        cli({"simulate", "--scenario", "one-robot", "--noise", "realistic", "--seed", "7",
+             "--runtime", "B1=" + path("cycles.json"), "--key-base", QString::number(testKeyBase()),
+             "--speed", "0.5", "--duration", "8"});
+    agent.terminate();
+    QVERIFY2(match.exitCode == 0, match.err.constData());
+    QVERIFY(agent.waitForFinished() && agent.exitCode() == 0);
+    const auto rerunAs = [this](const char* decision) {
+      const ProgramRun run = cli({"rerun", path("own.mcap"), "--robot", "B1", "--process",
+                                  QStringLiteral("decision=") + decision, "--json"});
+      if (run.exitCode != 0) qWarning("%s", run.err.constData());
+      return QJsonDocument::fromJson(run.out).object();
+    };
+    const QJsonObject same = rerunAs("striker");
+    const QByteArray text = QJsonDocument(same).toJson();
+    QVERIFY2(text.contains("Every cycle of decision was recorded (DECISION_CYCLE)"),
+             text.constData());
+    QVERIFY2(!text.contains("are missing in the recording"), text.constData());
+    QVERIFY2(same["compared"].toInt() > 5000 && same["unequal"].toInt() == 0, text.constData());
+    // It is not that nothing can differ.
+    QVERIFY(rerunAs("naive")["unequal"].toInt() > 1000);
+  }
 };
 
 }  // namespace tst_flight_recorder

@@ -572,12 +572,15 @@ void TestRerun::teamNeedsTeamMates() {
 /// the rest.
 void TestRerun::announcedCyclesRunExactly_data() {
   QTest::addColumn<bool>("announced");
-  QTest::newRow("announced") << true;
-  QTest::newRow("only sampled") << false;
+  QTest::addColumn<bool>("clocked");
+  QTest::newRow("announced") << true << false;
+  QTest::newRow("announced with its clock") << true << true;
+  QTest::newRow("only sampled") << false << false;
 }
 
 void TestRerun::announcedCyclesRunExactly() {
   QFETCH(bool, announced);
+  QFETCH(bool, clocked);
   const VariableCatalog& map = VariableCatalog::published();
   telemetry::GroupInfo group{"B1", {}};
   for (const Variable& variable : map.variables()) {
@@ -588,17 +591,19 @@ void TestRerun::announcedCyclesRunExactly() {
   }
   const std::size_t ints = static_cast<std::size_t>(
       std::ranges::count(map.variables(), VariableType::Int, &Variable::type));
-  if (announced) {
-    telemetry::ColumnInfo cycle;
-    cycle.name = "DECISION_CYCLE";
-    cycle.type = telemetry::ColumnType::Int32;
-    group.columns.insert(group.columns.begin() + static_cast<std::ptrdiff_t>(ints), cycle);
-  }
+  const auto addWord = [&](const char* name) {
+    telemetry::ColumnInfo word;
+    word.name = name;
+    word.type = telemetry::ColumnType::Int32;
+    group.columns.insert(group.columns.begin() + static_cast<std::ptrdiff_t>(ints), word);
+  };
+  if (announced) addWord("DECISION_CYCLE");
+  if (clocked) addWord("DECISION_CLOCK");
   group.robot.emplace();
   group.robot->slot = group.robot->number = 1;
   group.robot->behaviour = "striker";
   group.robot->sentFrom = "10.0.0.3";
-  const std::string path = m_folder.filePath(announced ? "cycles" : "sampled").toStdString();
+  const std::string path = m_folder.filePath(QTest::currentDataTag()).toStdString();
   telemetry::SessionWriterOptions writing;
   writing.waitWhenFull = true;
   auto writer = telemetry::SessionWriter::create(path, {}, writing).value();
@@ -611,12 +616,14 @@ void TestRerun::announcedCyclesRunExactly() {
   const auto between = [&random](int low, int high) {
     return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
   };
+  int clock = 0;  // ms; the process's own, which is not that of the recorder
   const auto write = [&](double time, int cycle) {
     std::vector<std::uint32_t> words;
     for (const Variable& variable : map.variables()) {
       const bool isInt = variable.type == VariableType::Int;
-      if (announced && !isInt && words.size() == ints) {
-        words.push_back(static_cast<std::uint32_t>(cycle));
+      if (!isInt && words.size() == ints) {
+        if (clocked) words.push_back(static_cast<std::uint32_t>(clock));
+        if (announced) words.push_back(static_cast<std::uint32_t>(cycle));
       }
       words.push_back(std::bit_cast<std::uint32_t>(
           board.read(IntVar{variable.index + (isInt ? 0 : Blackboard::floatOffset)})));
@@ -641,11 +648,14 @@ void TestRerun::announcedCyclesRunExactly() {
     for (int i = between(1, 4); i > 0; --i) {
       time += 0.001 * between(2, 9);
       sense();
+      // As communication does it; the next cycle sets it again.
+      if (between(0, 3) == 0) board.write(v.decisionWorking, 0);
       write(time, n == 1 ? 0 : 1 - n);
     }
     time += 0.001 * between(1, 5);
+    if (clocked) clock = 7000 + static_cast<int>(1000.0 * time) + between(0, 2);
     write(time, n);
-    decision->step(board, Clock{time});
+    decision->step(board, Clock{clocked ? clock / 1000.0 : time});
     time += 0.001 * between(1, 5);
     if (between(0, 1) == 0) board.write(v.visionPanDeg, static_cast<float>(between(-90, 90)));
     write(time, -n);
@@ -667,6 +677,7 @@ void TestRerun::announcedCyclesRunExactly() {
            plan->notes.empty() ? "no notes" : plan->notes[0].c_str());
   QVERIFY2(result->unequal() == 0, qPrintable(shown(*result)));
   QVERIFY(variable(*result, "DECISION_STATE").compared > 300);
+  QVERIFY(variable(*result, "DECISION_WORKING").compared > 300);
   QVERIFY(!result->isTooCoarse());
 }
 

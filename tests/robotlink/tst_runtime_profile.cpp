@@ -71,6 +71,14 @@ class TestRuntimeProfile : public QObject {
              (std::vector<std::string>{"${python}", "decision.py", "-n"}));
   }
 
+  void cyclesAreAnnouncedWhereTheProfileSays() {
+    const auto profile = loadRuntime(choice("reference:announce_cycles=decision=460:461"));
+    QVERIFY2(profile, profile ? "" : profile.error().text().c_str());
+    QCOMPARE(profile->values.at("announce_cycles"), std::string("decision=460:461"));
+    const auto wrong = loadRuntime(choice("reference:announce_cycles=decision"));
+    QVERIFY(!wrong && wrong.error().message.find("announce_cycles") != std::string::npos);
+  }
+
   void everyKeyIsRead() {
     const auto profile = runtimeProfileFromJson(R"({"version": 1, "name": "team", "title": "Ours",
       "values": {"side": "left"}, "cycle": "MATCH_CYCLE",

@@ -85,8 +85,9 @@ class MappingReader {
 
   TopicMapping read(const JsonNode& root) {
     TopicMapping mapping;
-    const JsonObject file(m_report, root, "",
-                          {"mapping", "field", "robots", "log", "referee", "recordings"});
+    const JsonObject file(
+        m_report, root, "",
+        {"mapping", "field", "robots", "log", "referee", "recordings", "alignedBy"});
     file.require("mapping");
     (void)file.integer("mapping", 1, 1, 1);
     mapping.field = file.text("field", {}, 100);
@@ -105,6 +106,9 @@ class MappingReader {
     each(file, "recordings", [&](const JsonNode& node, const std::string& path) {
       mapping.recordings.push_back(readRecording(node, path));
     });
+    if (const auto event = file.choice("alignedBy", alignEventNames, "event")) {
+      mapping.alignedBy = static_cast<AlignEvent>(*event);
+    }
     return mapping;
   }
 
@@ -237,7 +241,7 @@ class MappingReader {
     if (const auto clock = object.choice("time", clockNames, "time")) {
       recording.clock = static_cast<RecordingClock>(*clock);
     }
-    constexpr double longest = 1e9;
+    constexpr double longest = 1e10;  // a clock that was never set counts from 1970
     recording.offset = object.number("offset", 0.0, {-longest, longest, "seconds"});
     return recording;
   }
@@ -328,6 +332,7 @@ std::string mappingText(const TopicMapping& mapping) {
     if (recording.offset != 0.0) one["offset"] = recording.offset;
     json["recordings"].push_back(std::move(one));
   }
+  if (mapping.alignedBy) json["alignedBy"] = nameOf(*mapping.alignedBy);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -31,8 +31,11 @@ class McapRecording : public RecordingReader {
     const bool isOurs = std::ranges::any_of(
         reader.contents().metadata, [](const auto& entry) { return entry.name == "pitchboard"; });
     if (isOurs) {
-      return failure(ErrorCode::InvalidArgument,
-                     "This is a session of Pitchboard already. Open it as it is.", path);
+      return failure(
+          ErrorCode::InvalidArgument,
+          "This is a session of Pitchboard already. Open it as it is, beside others with "
+          "Timeline > Compare with sessions.",
+          path);
     }
     const std::size_t file = m_files.size();
     m_files.push_back({std::move(reader), {}});

@@ -180,6 +180,42 @@ class TestFieldLook : public QObject {
     QTest::newRow("two on one place") << 2 << 0.0 << 12.0;
     QTest::newRow("small ones") << 6 << 40.0 << 4.0;
   }
+  /// Of several sessions at the same place: the first below, the second above, and so on.
+  void comparedNamesDoNotLieOnEachOther() {
+    const QSizeF size(30.0, 9.0);
+    std::vector<NamedRobot> robots;
+    for (int i = 0; i < 6; ++i) robots.push_back({inSlot(i + 1), {100.0, 100.0}, 12.0, size});
+    DirectionsBefore before;
+    const auto boxes = [&] {
+      std::vector<QRectF> all;
+      for (const PlacedName& name : placeNamesBelow(robots, before)) {
+        QRectF box(QPointF(), size);
+        box.moveCenter(name.centre);
+        all.push_back(box);
+      }
+      return all;
+    };
+    const std::vector<QRectF> placed = boxes();
+    QCOMPARE(placed.size(), robots.size());
+    QVERIFY(placed[0].top() > 112.0 && placed[0].top() < 120.0);
+    QVERIFY(placed[1].bottom() < 88.0 && placed[1].bottom() > 80.0);
+    for (std::size_t a = 0; a < placed.size(); ++a) {
+      for (std::size_t b = a + 1; b < placed.size(); ++b) QVERIFY(!placed[a].intersects(placed[b]));
+    }
+    // While one robot goes past the others no name jumps: each moves with its robot.
+    robots.resize(2);
+    for (double x = 60.0; x <= 140.0; x += 4.0) {
+      robots[1].at.setX(x);
+      const std::vector<QRectF> now = boxes();
+      QCOMPARE(now[0], placed[0]);
+      QCOMPARE(now[1].translated(100.0 - x, 0.0), placed[1]);
+    }
+    // One that is alone has its name below it.
+    before.clear();
+    robots[1].at = {300.0, 100.0};
+    QVERIFY(boxes()[1].top() > 112.0);
+  }
+
   void namesOfACrowdAreAllRead() {
     QFETCH(int, robots);
     QFETCH(double, apart);

@@ -271,6 +271,29 @@ class TestLog : public QObject {
     QCOMPARE(model.rowCount(), 130 + 130 + 2 * 1300);
   }
 
+  // Whoever shows the list pays for each removal.
+  void aFullListLosesNeighbours() {
+    LogModel model;
+    const auto say = [&model](int count) {
+      for (int i = 0; i < count; ++i) {
+        std::vector<LogLine> portion;
+        for (int k = 0; k < 100; ++k) {
+          portion.push_back({i * 1.0, k % 3 == 0 ? "B1 decision" : "R2 localization",
+                             "cycle " + std::to_string(k), LogLevel::Info});
+        }
+        model.append(portion);
+      }
+    };
+    model.append({{0.0, "B3 vision", "quiet", LogLevel::Info}});
+    say(105);
+    const QSignalSpy removed(&model, &LogModel::rowsRemoved);
+    say(500);
+    QVERIFY(model.rowCount() > int(LogModel::maxLines));
+    QVERIFY2(removed.size() > 80 && removed.size() <= 100,
+             qPrintable(QString::number(removed.size())));
+    QCOMPARE(model.index(0, LogModel::Text).data().toString(), QStringLiteral("quiet"));
+  }
+
   void aRestartIsADivider() {
     LogModel model;
     model.setMoment(SourceKind::Simulate, {});

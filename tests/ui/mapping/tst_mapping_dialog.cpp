@@ -26,6 +26,7 @@
 #include <ui/base/number_box.h>
 #include <ui/mapping/mapping_dialog.h>
 
+#include "../../support/match_recordings.h"
 #include "../../support/websocket_server.h"
 #include "meaning_tree.h"
 #include "offset_strip.h"
@@ -253,6 +254,60 @@ class TestMappingDialog : public QObject {
         m_folder.filePath(QStringLiteral("first.mapping.json")).toStdString());
     QVERIFY(saved.has_value());
     QCOMPARE(saved->recordings[1].offset, -1.5);
+  }
+
+  /// The robot's clock was never set; the referee's log and its table have the kick-off in common.
+  void recordingsAreAlignedByTheKickOff() {
+    using match_recordings::writeRefereeLog;
+    const auto path = [this](const char* name) { return m_folder.filePath(QLatin1String(name)); };
+    const QString log = path("log.yaml"), robot = path("robot3.csv");
+    writeRefereeLog(log.toStdString(), {{1.0, 2, 0}, {20.0, 3, 0}, {40.0, 4, 0}});
+    match_recordings::writeRobotTable(robot.toStdString(), 500.0, 530.0,
+                                      {{500.0, 2, 0}, {512.5, 3, 0}});
+    Dialog d(mappingSource(QStringList{log, robot}));
+    QTRY_VERIFY(d.dialog->isUpToDate());
+    auto* align = d.dialog->findChild<QComboBox*>(QStringLiteral("mappingAlign"));
+    QVERIFY(align->isVisible());
+    QCOMPARE(align->currentText(), QStringLiteral("by their times"));
+    const auto choose = [&](int which) {
+      align->setCurrentIndex(which);
+      emit align->activated(which);
+      QTRY_VERIFY(d.dialog->isUpToDate());
+    };
+    choose(1);
+    auto* message = d.dialog->findChild<InPlaceMessage*>(QStringLiteral("mappingMessage"));
+    QVERIFY2(message->text().contains(QStringLiteral("robot3.csv")) &&
+                 message->text().contains(QStringLiteral("no state of the game")),
+             qPrintable(message->text()));
+    QCOMPARE(align->currentText(), QStringLiteral("by their times"));
+    // The mapping says what the states are.
+    d.drag({"robot3", "state"}, d.rowOf(d.meanings, {"Referee", "Referee state"}));
+    QTRY_VERIFY(d.dialog->isUpToDate());
+    choose(1);
+    QCOMPARE(align->currentText(), QStringLiteral("by the kick-off"));
+    QCOMPARE(message->text(), QString());
+    const double offset = 1'782'900'020.0 - 512.5;
+    QCOMPARE(d.dialog->mapping().recordings[1].offset, offset);
+    auto* times = d.dialog->findChild<QTableWidget*>(QStringLiteral("mappingTimes"));
+    QCOMPARE(qobject_cast<NumberBox*>(times->cellWidget(1, 2))->value(), offset);
+    auto* strip = d.dialog->findChild<OffsetStrip*>();
+    const double second_px = strip->barOf(1).width() / 30.0;
+    // The table begins 12.5 s before the kick-off, the log's game 19 s.
+    QVERIFY(std::abs((strip->barOf(1).left() - strip->barOf(0).left()) / second_px - 6.5) < 0.2);
+    // Who moves one aligns by hand.
+    strip->setFocus();
+    QTest::keyClick(strip, Qt::Key_Down);
+    QTest::keyClick(strip, Qt::Key_Right);
+    QTRY_VERIFY(d.dialog->isUpToDate());
+    QCOMPARE(align->currentText(), QStringLiteral("by hand"));
+    QVERIFY(!d.dialog->mapping().alignedBy);
+    choose(0);
+    QCOMPARE(d.dialog->mapping().recordings[1].offset, 0.0);
+    choose(1);
+    QTest::mouseClick(d.use, Qt::LeftButton);
+    const auto saved = link::mappingFromFile(path("log.mapping.json").toStdString());
+    QVERIFY(saved && saved->alignedBy == link::AlignEvent::KickOff);
+    QCOMPARE(saved->recordings[1].offset, offset);
   }
 
   void aBridgeIsMapped() {

@@ -28,6 +28,7 @@
 #include <ui/field/field_view.h>
 #include <ui/plots/plots_dock.h>
 #include <ui/sources/linked_time.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/note_board.h>
@@ -39,6 +40,7 @@
 
 #include "../../support/numbered_clip.h"
 #include "../../support/program_run.h"
+#include "../live_window.h"
 #include "../studio_rig.h"
 #include "chart_pane.h"
 #include "notes_model.h"
@@ -584,6 +586,75 @@ class TestNotes : public QObject {
     s.action("undo")->trigger();
     QTRY_COMPARE_WITH_TIMEOUT(s.board->entries().size(), std::size_t{1}, patience_ms);
     QCOMPARE(keptOf(file).size(), std::size_t{3});
+  }
+
+  /// Live: drawn at the present and while looking back, with recordings of it.
+  void liveRobotsKeepThemWithTheirRecordings() {
+    NotesStudio s;
+    live_rig::LiveWindow live(s.window);
+    QVERIFY(live.isListening());
+    for (int i = 0; i < 5; ++i) QVERIFY(live.say());
+    s.drawOnField("noteArrow", {-3.0, 2.4}, {-1.0, 2.4});
+    QVERIFY(!s.shown()->isLookingBack());
+    const DrawnNote atPresent = s.only();
+    QVERIFY(s.shown()->available()->begin <= atPresent.time && atPresent.time <= s.shown()->now());
+    QVERIFY(s.isSeenAt({-2.0, 2.4}));
+    auto* recording = s.window.recording();
+    const QString file = path("live.mcap");
+    recording->startInto(file);
+    QTRY_VERIFY_WITH_TIMEOUT(keptOf(file) == std::vector{atPresent}, patience_ms);
+    for (int i = 0; i < 5; ++i) QVERIFY(live.say());
+    // The moment of a message, to which one looks back.
+    const double then = s.window.live()->frame()->snapshot.time;
+    const int place = live.place();
+    for (int i = 0; i < 5; ++i) QVERIFY(live.say());
+    s.shown()->seek(then);
+    QVERIFY(s.shown()->isLookingBack());
+    QCOMPARE(live.placeIn(s.shown()->frame()), place);
+    s.drawOnField("noteCircle", {2.0, -2.0}, {2.5, -2.0});
+    QCOMPARE(s.board->entries().size(), std::size_t{2});
+    const DrawnNote past = s.board->entries()[1].note;
+    QCOMPARE(past.time, then);
+    QVERIFY(s.isSeenAt({2.5, -2.0}));
+    QTRY_VERIFY_WITH_TIMEOUT(keptOf(file) == (std::vector{atPresent, past}), patience_ms);
+    // What comes meanwhile changes neither the moment nor its notes.
+    QVERIFY(live.say());
+    QVERIFY(s.shown()->isLookingBack() && s.isSeenAt({2.5, -2.0}));
+    // Both are events of Live, and what is undone is undone in the file.
+    s.shown()->seek(s.shown()->available()->begin);
+    QVERIFY(!s.isSeenAt({2.5, -2.0}));
+    const auto row = s.shown()->events()->next(atPresent.time - 1e-6);
+    QVERIFY(row);
+    QCOMPARE(s.shown()->events()->at(*row).kind, link::MatchEventKind::Note);
+    s.action("undo")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(keptOf(file) == std::vector{atPresent}, patience_ms);
+    s.action("redo")->trigger();
+    QTRY_VERIFY_WITH_TIMEOUT(keptOf(file).size() == 2, patience_ms);
+    // The recent past has them, too.
+    const QString recent = path("live recent.mcap");
+    const auto made = recording->recentPast(3600.0)(recent);
+    QVERIFY2(made, made ? "" : made.error().text().c_str());
+    QVERIFY(keptOf(recent) == (std::vector{atPresent, past}));
+    // Another source has none of them, and Live keeps them meanwhile.
+    s.window.showSource(SourceKind::Simulate);
+    QVERIFY(s.board->entries().empty());
+    s.window.showSource(SourceKind::Live);
+    QCOMPARE(s.board->entries().size(), std::size_t{2});
+    // Live that begins anew has none; the recording that goes on keeps its own.
+    s.window.live()->clear();
+    QTRY_VERIFY_WITH_TIMEOUT(s.board->entries().empty(), patience_ms);
+    QVERIFY(live.say());
+    s.drawOnField("noteArrow", {-3.0, -2.4}, {-1.0, -2.4});
+    QTRY_VERIFY_WITH_TIMEOUT(keptOf(file).size() == 3, patience_ms);
+    QSignalSpy saved(recording, &SessionRecording::saved);
+    recording->stop();
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, patience_ms);
+    // In Replay they stand at the moments at which they were drawn.
+    s.replay(file);
+    QCOMPARE(s.board->entries().size(), std::size_t{3});
+    s.shown()->seek(then);
+    QTRY_COMPARE_WITH_TIMEOUT(live.placeIn(s.shown()->frame()), place, patience_ms);
+    QVERIFY(s.isSeenAt({2.5, -2.0}));
   }
 
   /// A file that cannot be written is told; one that is damaged stays as it is.

@@ -347,15 +347,33 @@ class TestPlotVariables : public QObject {
       robot.pose.position = {x, 0.0};
       bench.source.fill(name, 10.0);
     }
-    bench.source.shown = frame;
     PlotsDock dock(bench.context(), nullptr);
     dock.resize(800, 300);
     dock.show();
     PaneSpec chart;
     chart.curves << variableCurve(QStringLiteral("first/DIST"));
     dock.setLayoutSpec({{{QStringLiteral("one"), {chart}}}, 0});
+    // Chosen before a frame says where the robots are, and whose they are.
     dock.feed()->refresh();
-    QTRY_COMPARE(namesOf(dock.currentPage()->panes()[0]), QStringList(QStringLiteral("DIST B2")));
+    QTRY_VERIFY(!namesOf(dock.currentPage()->panes()[0]).isEmpty());
+    bench.source.shown = frame;
+    emit bench.source.restarted();
+    dock.feed()->refresh();
+    const auto shownName = [&dock] { return namesOf(dock.currentPage()->panes()[0]); };
+    QTRY_COMPARE(shownName(), QStringList(QStringLiteral("DIST B2")));
+    // It is still that robot's when the match is shown again after a recording without robots,
+    // although another one is at the ball now.
+    const auto match = bench.source.store;
+    bench.source.shown = std::make_shared<link::MatchFrame>();
+    bench.source.restart();
+    dock.feed()->refresh();
+    auto later = std::make_shared<link::MatchFrame>(*frame);
+    later->robots[0].pose.position = {0.0, 0.0};
+    bench.source.shown = later;
+    bench.source.store = match;
+    emit bench.source.restarted();
+    dock.feed()->refresh();
+    QTRY_COMPARE(shownName(), QStringList(QStringLiteral("DIST B2")));
   }
 
   // Received before ours, a guest was the first plot, and stayed it.

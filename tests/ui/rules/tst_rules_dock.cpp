@@ -19,7 +19,11 @@
 #include <telemetry/query/moment_watch.h>
 #include <telemetry/session/session_reader.h>
 #include <telemetry/session/session_writer.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/match_memory.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/rule_watch.h>
@@ -27,6 +31,7 @@
 #include <ui/sources/shown_moment.h>
 
 #include "../../support/program_run.h"
+#include "../live_window.h"
 #include "../studio_rig.h"
 #include "timeline_strip.h"
 
@@ -51,14 +56,37 @@ struct RulesPanel : studio_rig::PanelStudio {
     open(session);
     QTRY_VERIFY_WITH_TIMEOUT(!rules->isRunning(), patience_ms);
   }
-  /// "rule robot from until", sorted.
-  QStringList lines() const {
+  /// "rule robot from until", sorted; of a compared session with this id, or of what is shown.
+  QStringList lines(quint64 session = 0) const {
     QStringList out;
     for (const BrokenRule& one : rules->broken()) {
-      out << textOf(rules->ruleOf(one), one.moment);
+      if (one.session == session) out << textOf(rules->ruleOf(one), one.moment);
     }
     out.sort();
     return out;
+  }
+  /// The same as the command line finds it in a recording.
+  static QStringList linesOfFile(const QString& rules, const QString& session) {
+    const ProgramRun run = cli({"check", rules, session, "--json"});
+    QStringList out;
+    for (const QByteArray& line : run.out.trimmed().split('\n')) {
+      const QJsonObject one = QJsonDocument::fromJson(line).object();
+      if (one.contains("not_checked")) continue;
+      out << QStringLiteral("%1 %2 %3 %4")
+                 .arg(one["rule"].toString(), one["robot"].toString())
+                 .arg(one["from"].toDouble(), 0, 'f', 6)
+                 .arg(one["until"].toDouble(), 0, 'f', 6);
+    }
+    out.sort();
+    return out;
+  }
+  ComparedSessions* compared() const { return window.compared(); }
+  ComparedSession* session(std::size_t index) const { return compared()->all().at(index); }
+  /// Opens files beside the one that is shown, and waits until they are checked.
+  void compare(const QStringList& paths) const {
+    const std::size_t all = compared()->all().size() + static_cast<std::size_t>(paths.size());
+    compared()->open(paths);
+    QTRY_VERIFY_WITH_TIMEOUT(compared()->all().size() == all && !rules->isRunning(), patience_ms);
   }
   static QString textOf(const telemetry::Rule& rule, const telemetry::FoundMoment& moment) {
     return QStringLiteral("%1 %2 %3 %4")
@@ -106,6 +134,32 @@ struct RulesPanel : studio_rig::PanelStudio {
 
 }  // namespace
 
+namespace {
+
+/// Live robots whose rows a test writes.
+class RowsSource : public FrameSource {
+ public:
+  const SourceKind& kind() const override { return SourceKind::Live; }
+  FramePtr frame() const override { return nullptr; }
+  std::shared_ptr<const telemetry::SeriesStore> series() const override { return m_rows; }
+  QString emptyText() const override { return {}; }
+  /// With a column X.
+  telemetry::GroupId addGroup(const char* name) const {
+    using namespace telemetry;
+    return m_rows->addGroup(
+        {name, {{"X", ColumnType::Float64, "", "", ColumnKind::Number, {}}}, {}});
+  }
+  void append(telemetry::GroupId group, double time, double x) {
+    m_rows->append(group, {time, {}, std::span(&x, 1)});
+    emit rowsAppended();
+  }
+
+ private:
+  std::shared_ptr<telemetry::SeriesStore> m_rows = std::make_shared<telemetry::SeriesStore>();
+};
+
+}  // namespace
+
 class TestRulesDock : public QObject {
   Q_OBJECT
   QTemporaryDir m_folder;
@@ -138,17 +192,7 @@ class TestRulesDock : public QObject {
     const int height = s.strip->sizeHint().height();
     QVERIFY(s.rules->open(path("rules.json")));
     s.replay(path("match.mcap"));
-    const ProgramRun run = cli({"check", path("rules.json"), path("match.mcap"), "--json"});
-    QStringList expected;
-    for (const QByteArray& line : run.out.trimmed().split('\n')) {
-      const QJsonObject one = QJsonDocument::fromJson(line).object();
-      if (one.contains("not_checked")) continue;
-      expected << QStringLiteral("%1 %2 %3 %4")
-                      .arg(one["rule"].toString(), one["robot"].toString())
-                      .arg(one["from"].toDouble(), 0, 'f', 6)
-                      .arg(one["until"].toDouble(), 0, 'f', 6);
-    }
-    expected.sort();
+    const QStringList expected = s.linesOfFile(path("rules.json"), path("match.mcap"));
     QVERIFY(expected.size() > 5);
     QTRY_COMPARE_WITH_TIMEOUT(s.lines(), expected, patience_ms);
     QCOMPARE(s.table()->model()->rowCount(), static_cast<int>(expected.size()));
@@ -206,9 +250,15 @@ class TestRulesDock : public QObject {
     QTest::keyClick(s.table(), Qt::Key_C, Qt::ControlModifier);
     QVERIFY2(QApplication::clipboard()->text().startsWith(QStringLiteral("error\tlate\tB2\t")),
              qPrintable(QApplication::clipboard()->text()));
+    // Times and other numbers are found as they are shown.
+    s.find<QLineEdit>("rulesFilter")
+        ->setText(s.table()->model()->index(0, RuleWatch::From).data().toString());
+    QVERIFY(s.table()->model()->rowCount() > 0);
+    s.find<QLineEdit>("rulesFilter")->setText(QStringLiteral("0123456789"));
+    QCOMPARE(s.table()->model()->rowCount(), 0);
     // The file is known at the next start.
     QCOMPARE(s.settings.value(QStringLiteral("rules/file")).toString(), path("rules.json"));
-    RuleWatch next(s.window.shown(), s.window.replay(), &s.settings, nullptr);
+    RuleWatch next(s.window.shown(), s.window.replay(), s.compared(), &s.settings, nullptr);
     QCOMPARE(next.rules().size(), std::size_t{3});
   }
 
@@ -276,6 +326,187 @@ class TestRulesDock : public QObject {
     QVERIFY(s.events().empty());
     QVERIFY(s.rules->broken().empty());
     QCOMPARE(s.strip->rulesRect(), QRect());
+  }
+
+  void comparedSessionsAreChecked() {
+    const QString second = path("second.mcap");
+    const ProgramRun run = cli({"record", "--scenario", "match-3v3", "--noise", "realistic",
+                                "--seed", "8", "--duration", "16", "-o", second});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const QString rules = path("rules.json");
+    const QStringList first = RulesPanel::linesOfFile(rules, path("match.mcap"));
+    const QStringList other = RulesPanel::linesOfFile(rules, second);
+    QVERIFY(!other.isEmpty() && other != first);
+    RulesPanel s;
+    QVERIFY(s.rules->open(rules));
+    s.replay(path("match.mcap"));
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), first, patience_ms);
+    QVERIFY(s.table()->isColumnHidden(RuleWatch::Session));
+    // The same file twice is two sessions.
+    s.compare({second, path("match.mcap")});
+    QCOMPARE(s.lines(), first);
+    QCOMPARE(s.lines(s.session(0)->id()), other);
+    QCOMPARE(s.lines(s.session(1)->id()), first);
+    QCOMPARE(s.table()->model()->rowCount(), static_cast<int>(2 * first.size() + other.size()));
+    // The events of the timeline are those of what is shown.
+    QCOMPARE(s.events().size(), static_cast<std::size_t>(first.size()));
+    QVERIFY2(s.problem().contains(QStringLiteral("′ second: unknown is not checked")),
+             qPrintable(s.problem()));
+    // The table says whose they are, with mark and colour.
+    QVERIFY(!s.table()->isColumnHidden(RuleWatch::Session));
+    s.find<QLineEdit>("rulesFilter")->setText(QStringLiteral("late B1 second"));
+    QCOMPARE(s.table()->model()->rowCount(), 1);
+    const QModelIndex cell = s.table()->model()->index(0, RuleWatch::Session);
+    QCOMPARE(cell.data().toString(), QStringLiteral("′ second"));
+    QCOMPARE(cell.data(Qt::DecorationRole).value<QColor>(), sessionColor(1));
+    // A row leads to the moment as it is aligned.
+    const auto goToFirst = [&s] {
+      const QModelIndex row = s.table()->model()->index(0, RuleWatch::Name);
+      QTest::mouseClick(s.table()->viewport(), Qt::LeftButton, {},
+                        s.table()->visualRect(row).center());
+      return s.window.shown()->time();
+    };
+    QVERIFY(std::abs(goToFirst() - 12.0) < 0.05);
+    s.session(0)->setOffset(2.5);
+    QVERIFY(std::abs(goToFirst() - 14.5) < 0.05);
+    QCOMPARE(s.lines(s.session(0)->id()), other);  // in its own time
+    s.find<QLineEdit>("rulesFilter")->clear();
+    // Its row of the timeline has its ranges where they are aligned.
+    const auto middleOf = [&s](double time) {
+      return QPoint(qRound(s.strip->axis().pixel(time)),
+                    s.strip->comparedRulesRect(0).center().y());
+    };
+    QTRY_VERIFY(s.strip->comparedRect(0).height() > 0 &&
+                s.strip->height() == s.strip->sizeHint().height());
+    const auto colorAt = [&](double time) {
+      const QImage picture = s.strip->grab().toImage();
+      return picture.pixelColor(middleOf(time) * picture.devicePixelRatio());
+    };
+    QCOMPARE(colorAt(15.0), theme().errorText);
+    QVERIFY(colorAt(12.5) != theme().errorText);
+    QHelpEvent help(QEvent::ToolTip, middleOf(15.0), s.strip->mapToGlobal(middleOf(15.0)));
+    QApplication::sendEvent(s.strip, &help);
+    QVERIFY2(QToolTip::text().contains(QStringLiteral("′ second · +2.50 s")) &&
+                 QToolTip::text().contains(QStringLiteral("It is late (late, ")),
+             qPrintable(QToolTip::text()));
+    s.window.shown()->seek(1.0);
+    QTest::mouseClick(s.strip, Qt::LeftButton, {}, middleOf(15.0));
+    QVERIFY(std::abs(s.window.shown()->time() - 14.5) < 0.05);
+    // What is changed in the rules is checked everywhere; what is closed is gone.
+    written("only.json", R"({"version": 1, "rules": [
+  {"name": "only", "text": "It is early", "when": "TRUE_X > -1000 && t < 1"}]})");
+    QVERIFY(s.rules->open(path("only.json")));
+    QTRY_VERIFY_WITH_TIMEOUT(!s.rules->isRunning(), patience_ms);
+    QCOMPARE(s.lines(s.session(0)->id()), RulesPanel::linesOfFile(path("only.json"), second));
+    QCOMPARE(s.lines(s.session(1)->id()), s.lines());
+    s.compared()->remove(s.session(0));
+    QCOMPARE(s.rules->broken().size(), static_cast<std::size_t>(2 * s.lines().size()));
+    s.compared()->removeAll();
+    QVERIFY(s.table()->isColumnHidden(RuleWatch::Session));
+    QCOMPARE(s.table()->model()->rowCount(), static_cast<int>(s.lines().size()));
+  }
+
+  /// A match is checked while recordings are read beside it, and only its rules raise an alarm.
+  void aMatchHasComparedSessionsBesideIt() {
+    RulesPanel s;
+    s.controller.open(link::loadScenario("match-3v3").value(), true);
+    s.playTo(6);
+    QVERIFY(s.rules->open(written("beside.json", R"({"version": 1, "rules": [
+  {"name": "late", "text": "It is late", "when": "TRUE_X > -1000 && t > 2 && t < 3"}]})")));
+    QSignalSpy broke(s.rules, &RuleWatch::broke);
+    s.compare({path("match.mcap")});
+    const quint64 id = s.session(0)->id();
+    const QStringList expected = RulesPanel::linesOfFile(path("beside.json"), path("match.mcap"));
+    QCOMPARE(s.lines(id), expected);
+    QCOMPARE(expected.size(), 6);
+    QCOMPARE(broke.count(), 0);
+    s.playTo(150);
+    QTRY_COMPARE_WITH_TIMEOUT(s.lines(), s.linesOfMemory(), patience_ms);
+    QVERIFY(broke.count() > 0 && s.lines().size() == 6);
+    // What is dropped of the match leaves the recording as it is.
+    s.controller.memory()->continueFrom(1.0);
+    QTRY_VERIFY_WITH_TIMEOUT(s.lines().isEmpty(), patience_ms);
+    QCOMPARE(s.lines(id), expected);
+  }
+
+  /// Live, at the present and while somebody looks back.
+  void liveRobotsAreChecked() {
+    RulesPanel s;
+    live_rig::LiveWindow live(s.window);
+    QVERIFY(live.isListening());
+    QVERIFY(s.rules->open(written("received.json", R"({"version": 1, "rules": [
+  {"name": "near", "text": "The ball is near", "when": "VISION_BALL_DIST < 50"},
+  {"name": "far", "when": "VISION_BALL_DIST > 400", "severity": "note"}]})")));
+    QSignalSpy broke(s.rules, &RuleWatch::broke);
+    auto* frame = s.window.findChild<QWidget*>(QStringLiteral("alarmFrame"));
+    // The robot goes on sending, until what it said before has been checked.
+    const auto isChecked = [&] {
+      return QTest::qWaitFor([&] { return live.say() && s.lines() == s.linesOfMemory(); },
+                             patience_ms);
+    };
+    for (const float distance : {100.0F, 20.0F, 30.0F, 100.0F, 500.0F}) QVERIFY(live.say(distance));
+    QVERIFY(isChecked());
+    QCOMPARE(s.rules->broken().size(), std::size_t{2});
+    QCOMPARE(broke.count(), 1);  // notes are no alarms
+    QVERIFY2(broke[0][0].toString().endsWith(QStringLiteral(": The ball is near")),
+             qPrintable(broke[0][0].toString()));
+    QVERIFY(frame->isVisible());
+    const BrokenRule near = s.rules->broken().front();
+    QCOMPARE(near.moment.value, std::optional(20.0));
+    // An event of the robot that is shown, to which N leads.
+    QVERIFY(s.listsEveryBeginning());
+    const auto events = s.events();
+    const link::RobotFrame& robot = s.window.live()->frame()->robots[0];
+    QCOMPARE(events[0].robot, robot.uid);
+    QCOMPARE(events[0].name, robot.name);
+    EventFilter onlyRules;
+    for (const link::MatchEvent& event : s.window.shown()->events()->events()) {
+      if (event.kind != link::MatchEventKind::RuleBroken) onlyRules.hidden.insert(event.kind);
+    }
+    s.window.shown()->setFilter(onlyRules);
+    s.window.shown()->seek(s.window.shown()->available()->begin);
+    QVERIFY(s.window.shown()->isLookingBack());
+    QVERIFY(s.window.shown()->goToNextEvent());
+    QCOMPARE(s.window.shown()->time(), near.from());
+    // It is checked meanwhile, and the moment that is shown stays.
+    QVERIFY(live.say(10.0F));
+    QVERIFY(isChecked());
+    QCOMPARE(broke.count(), 2);
+    QCOMPARE(s.rules->broken().size(), std::size_t{3});
+    QCOMPARE(s.events().size(), std::size_t{3});
+    QCOMPARE(s.window.shown()->time(), near.from());
+    // Another source has other rows, and comes back to these without an alarm.
+    s.window.showSource(SourceKind::Simulate);
+    QVERIFY(s.events().empty());
+    s.window.showSource(SourceKind::Live);
+    QVERIFY(isChecked());
+    QCOMPARE(s.events().size(), std::size_t{3});
+    QCOMPARE(broke.count(), 2);
+    s.window.live()->clear();
+    QTRY_VERIFY_WITH_TIMEOUT(s.rules->broken().empty() && s.events().empty(), patience_ms);
+  }
+
+  /// Rows of one robot may come after those of another one that have later times.
+  void rowsThatComeLateAreChecked() {
+    RowsSource source;
+    ShownMoment shown(&source);
+    ReplayController replay;
+    ComparedSessions compared(&shown, nullptr);
+    RuleWatch rules(&shown, &replay, &compared, nullptr, nullptr);
+    const auto a = source.addGroup("A"), b = source.addGroup("B");
+    for (const auto& [group, time, x] :
+         {std::tuple(a, 1.0, 0.0), {b, 1.0, 0.0}, {a, 1.2, 1.0}, {a, 1.3, 0.0}, {a, 3.0, 0.0}}) {
+      source.append(group, time, x);
+    }
+    QVERIFY(rules.open(written("order.json", R"({"version": 1, "rules": [
+  {"name": "a", "when": "A.X > 0"}, {"name": "b", "when": "B.X > 0"}]})")));
+    QTRY_COMPARE_WITH_TIMEOUT(rules.broken().size(), std::size_t{1}, patience_ms);
+    source.append(b, 2.8, 1.0);
+    source.append(b, 2.9, 0.0);
+    source.append(a, 4.0, 0.0);
+    QTRY_COMPARE_WITH_TIMEOUT(rules.broken().size(), std::size_t{2}, patience_ms);
+    QCOMPARE(rules.broken()[1].from(), 2.8);
+    QCOMPARE(rules.broken()[1].until(), 2.9);
   }
 
   void mistakesAreShown() {

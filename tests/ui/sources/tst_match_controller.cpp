@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Edits and transport of a real match with inline processes.
+#include <QAction>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QUndoStack>
 #include <QtTest>
 #include <atomic>
 #include <cmath>
+#include <semaphore>
 
 #include <robotlink/models/robot_models.h>
+#include <ui/base/undo_history.h>
 #include <ui/sources/match_controller.h>
 #include <ui/sources/match_edits.h>
 #include <ui/sources/match_memory.h>
@@ -54,6 +57,50 @@ class TestMatchController : public QObject {
     c.restart();
     QTRY_VERIFY(c.frame());
     QVERIFY(!c.isPaused());
+  }
+
+  void undoWaitsForAChangeThatIsUnderway() {
+    MatchController c(inside());
+    c.open(match(), true);
+    QTRY_VERIFY(c.frame());
+    UndoHistory history(nullptr);
+    connect(c.edits(), &MatchEdits::sent, &history, &UndoHistory::expect);
+    connect(c.edits(), &MatchEdits::answered, &history, &UndoHistory::answer);
+    QUndoStack* stack = c.edits()->undoStack();
+    history.add(stack, [] { return true; });
+    const double second = xOf(c, 2);
+    c.edits()->perform({"Move 1", "no", {placementStep(RobotId{1}, {{1.0, 0.0}, 0.0})}});
+    QTRY_COMPARE(stack->count(), 1);
+
+    std::binary_semaphore mayGoOn(0);
+    const auto slow = [&mayGoOn](Result<void> answer) {
+      const auto wait = [&mayGoOn, answer](link::SimulatedMatch&) {
+        mayGoOn.acquire();
+        return answer;
+      };
+      return EditStep{wait, [](link::SimulatedMatch&) { return Result<void>(); }};
+    };
+    const EditStep move = placementStep(RobotId{2}, {{2.0, 0.0}, 0.0});
+    c.edits()->perform({"Move 2", "no", {slow({}), move}});
+    history.undoAction()->trigger();
+    QCOMPARE(stack->index(), 1);
+    mayGoOn.release();
+    QTRY_COMPARE(stack->count(), 2);
+    QCOMPARE(stack->index(), 1);
+    QTRY_COMPARE(xOf(c, 2), second);
+    QTRY_COMPARE(xOf(c, 1), 1.0);
+
+    // What is refused leaves nothing to undo, and what was done before stays.
+    const QSignalSpy refused(&c, &MatchController::errorOccurred);
+    const Error no{ErrorCode::Conflict, "no room"};
+    c.edits()->perform({"Move 2", "no", {slow(tl::unexpected(no)), move}});
+    history.undoAction()->trigger();
+    mayGoOn.release();
+    QTRY_COMPARE(refused.size(), 1);
+    QCOMPARE(stack->index(), 1);
+    QVERIFY(history.undoAction()->isEnabled());
+    history.undoAction()->trigger();
+    QCOMPARE(stack->index(), 0);
   }
 
   /// Two play: what the referee knows nothing of would stand on the field as an obstacle.

@@ -100,9 +100,9 @@ class TestPlaysDock : public QObject {
     panel.window.openSession(m_match);
     QTRY_VERIFY_WITH_TIMEOUT(panel.window.replay()->loaded() >= 1.0, patience_ms);
     QTRY_VERIFY_WITH_TIMEOUT(panel.model->rowCount() > 0, patience_ms);
+    constexpr int many = 10'000;
     std::vector<link::PlayEvent> plays;
-    while (plays.size() < 5'000)
-      plays.push_back(panel.model->sessions()[0].plays[plays.size() % 8]);
+    while (plays.size() < many) plays.push_back(panel.model->sessions()[0].plays[plays.size() % 8]);
     for (std::size_t i = 0; i < plays.size(); ++i) plays[i].time = static_cast<double>(i);
     PlayWords made = wordsOf(plays);  // on the thread that counts
     const tests::EventLoopWatchdog turns;
@@ -116,7 +116,25 @@ class TestPlaysDock : public QObject {
     QVERIFY(panel.table->model()->rowCount() > 0);
     words->clear();
     QTest::qWait(1);
-    QCOMPARE(panel.table->model()->rowCount(), 5'000);
+    QCOMPARE(panel.table->model()->rowCount(), many);
+    for (const char* box : {"playKind", "playRobot"}) {
+      auto* choice = panel.find<QComboBox>(box);
+      for (int i = 0; i < choice->count(); ++i) {
+        choice->setCurrentIndex(i);
+        QTest::qWait(1);
+      }
+      choice->setCurrentIndex(0);
+      QTest::qWait(1);
+    }
+    for (const int row : {0, many / 2, many - 1}) {
+      const QModelIndex chosen = panel.table->model()->index(row, PlaysModel::What);
+      panel.table->scrollTo(chosen);
+      QTest::qWait(1);
+      QTest::mouseClick(panel.table->viewport(), Qt::LeftButton, {},
+                        panel.table->visualRect(chosen).center());
+      QTest::qWait(1);
+      QCOMPARE(panel.table->currentIndex().row(), row);
+    }
     for (int i = 0; i <= 10; ++i) {
       QScrollBar* bar = panel.table->verticalScrollBar();
       bar->setValue(bar->maximum() / 10 * i);
@@ -130,6 +148,49 @@ class TestPlaysDock : public QObject {
           turns.gap_ms());
     if (PITCHBOARD_SANITIZED) return;
     QVERIFY2(turns.longest_ms() < 50.0, qPrintable(QString::number(turns.longest_ms())));
+  }
+
+  void theSelectionSurvivesAChangeOfTheFilter() {
+    Panel panel;
+    panel.window.openSession(m_match);
+    QTRY_VERIFY_WITH_TIMEOUT(panel.model->rowCount() >= 8, patience_ms);
+    const auto& plays = panel.model->sessions()[0].plays;
+    const auto play = std::ranges::find(plays, link::PlayKind::BallWon, &link::PlayEvent::kind);
+    QVERIFY(play != plays.end());
+    const auto row = static_cast<int>(play - plays.begin());
+    const QModelIndex cell = panel.table->model()->index(row, PlaysModel::What);
+    panel.table->scrollTo(cell);
+    QTest::mouseClick(panel.table->viewport(), Qt::LeftButton, {},
+                      panel.table->visualRect(cell).center());
+    const auto selected = [&panel]() -> const link::PlayEvent* {
+      const QModelIndexList rows = panel.table->selectionModel()->selectedRows();
+      if (rows.size() != 1 || rows[0].row() != panel.table->currentIndex().row()) return nullptr;
+      const auto* filter = qobject_cast<const QAbstractProxyModel*>(panel.table->model());
+      return &panel.model->at(filter->mapToSource(rows[0]).row());
+    };
+    QVERIFY(selected() != nullptr && *selected() == *play);
+    // By kind, robot and words; and when all are back.
+    panel.choose("playKind", QStringLiteral("Ball won"));
+    QVERIFY(panel.table->model()->rowCount() < panel.model->rowCount());
+    QVERIFY(selected() != nullptr && *selected() == *play);
+    panel.choose("playRobot", QString::fromStdString(play->name));
+    QVERIFY(selected() != nullptr && *selected() == *play);
+    panel.find<QLineEdit>("playFilter")->setText(QString::fromStdString(play->name));
+    QVERIFY(selected() != nullptr && *selected() == *play);
+    panel.choose("playKind", QStringLiteral("All kinds"));
+    panel.choose("playRobot", QStringLiteral("Both teams"));
+    panel.find<QLineEdit>("playFilter")->clear();
+    QCOMPARE(panel.table->model()->rowCount(), panel.model->rowCount());
+    QVERIFY(selected() != nullptr && *selected() == *play);
+    // Nothing is selected once it is not in the list.
+    panel.find<QLineEdit>("playFilter")->setText(QStringLiteral("no such word"));
+    panel.find<QLineEdit>("playFilter")->clear();
+    QVERIFY(panel.table->selectionModel()->selectedRows().isEmpty());
+    // Times are found, too, as they are shown.
+    const QString time = panel.model->textOf(row, PlaysModel::Time);
+    panel.find<QLineEdit>("playFilter")->setText(time);
+    QVERIFY(panel.table->model()->rowCount() >= 1);
+    QCOMPARE(panel.table->model()->index(0, PlaysModel::Time).data().toString(), time);
   }
 
   void severalSessionsAreOneList() {

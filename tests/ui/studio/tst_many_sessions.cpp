@@ -461,6 +461,30 @@ class TestManySessions : public QObject {
     QTRY_COMPARE(s.ghosts().size(), 2U);
   }
 
+  /// Three recordings of one match have their robots at the same places.
+  void namesAtTheSamePlaceAreMovedApart() {
+    Studio s(m_files[0]);
+    QVERIFY(s.compare({m_files[1], m_files[1], m_files[1]}));
+    for (const double time : {4.0, 8.0, 11.0}) {
+      s.window.shown()->seek(time);
+      QTRY_COMPARE(s.ghosts().size(), 3U);
+      QTRY_VERIFY(s.ghosts()[0]->robots() == 6);
+      const auto areApart = [&s] {
+        std::vector<std::vector<QRectF>> names;
+        for (const ComparedItem* one : s.ghosts()) names.push_back(one->nameRects());
+        for (std::size_t robot = 0; robot < 6; ++robot) {
+          if (names[0][robot].intersects(names[1][robot]) ||
+              names[0][robot].intersects(names[2][robot]) ||
+              names[1][robot].intersects(names[2][robot])) {
+            return false;
+          }
+        }
+        return true;
+      };
+      QTRY_VERIFY(areApart());
+    }
+  }
+
   /// The session that is shown and a compared one change places.
   void oneIsOpenedInPlaceOfTheOneShown() {
     Studio s(m_files[0]);

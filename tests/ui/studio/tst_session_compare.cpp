@@ -7,10 +7,13 @@
 #include <QToolButton>
 #include <QToolTip>
 #include <chrono>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include <robotlink/live/live_pipeline.h>
 #include <robotlink/session/live_recorder.h>
+#include <robotlink/session/session_events.h>
 #include <telemetry/formats/text_protocol.h>
 #include <telemetry/session/session_writer.h>
 #include <ui/field/field_view.h>
@@ -18,6 +21,7 @@
 #include <ui/sources/compared_session.h>
 #include <ui/sources/compared_sessions.h>
 #include <ui/sources/linked_time.h>
+#include <ui/timeline/compared_menu.h>
 
 #include "../../support/group_facts.h"
 #include "chart_pane.h"
@@ -107,6 +111,38 @@ QString liveSession(const QTemporaryDir& folder) {
     (void)pipeline.advance(now);
   }
   return (*recorder)->finish() ? path : QString();
+}
+
+/// A minute whose referee is first received in PLAYING and kicks off later, or never.
+QString refereedSession(const QTemporaryDir& folder, const char* name,
+                        std::optional<double> kickOff) {
+  const QString path = folder.filePath(QLatin1String(name));
+  telemetry::SessionInfo info;
+  info.source = "simulation";
+  telemetry::SessionWriterOptions options;
+  options.waitWhenFull = true;
+  auto writer = telemetry::SessionWriter::create(path.toStdString(), info, options);
+  if (!writer) return {};
+  const auto group = (*writer)->addGroup(
+      {"field",
+       {{"X", telemetry::ColumnType::Float64, "m", "", telemetry::ColumnKind::Number, {}}}});
+  for (int second = 0; second <= 60; ++second) {
+    const double values[] = {0.1 * second};
+    (*writer)->append(group, {1.0 * second, {}, values});
+  }
+  const auto add = [&](link::MatchEventKind kind, double time, std::optional<PlayState> state) {
+    link::MatchEvent event;
+    event.kind = kind;
+    event.time = time;
+    event.state = state;
+    if (state) event.detail = labelOf(*state);
+    (*writer)->append(link::sessionEvent(event));
+  };
+  add(link::MatchEventKind::RefereeReceived, 1.0, {});
+  add(link::MatchEventKind::GameState, 1.0, PlayState::Playing);
+  add(link::MatchEventKind::GameState, 3.0, PlayState::Set);
+  if (kickOff) add(link::MatchEventKind::GameState, *kickOff, PlayState::Playing);
+  return (*writer)->finish() ? path : QString();
 }
 
 /// Every kind of plot beside each other.
@@ -256,6 +292,35 @@ class TestSessionCompare : public QObject {
         align({qRound(strip->comparedMarks().front().x), strip->comparedRect().center().y()}));
     QVERIFY(compared->there());
     QCOMPARE(compared->offset(), here - *compared->there());
+  }
+
+  void sessionsAreAlignedByTheKickOff() {
+    const QTemporaryDir folder;
+    Studio s(0);
+    s.window.openSession(refereedSession(folder, "first.mcap", 20.0));
+    QTRY_VERIFY(!s.window.shown()->kind().hasPresent);
+    ComparedSession* compared = compare(s, refereedSession(folder, "second.mcap", 12.5));
+    QVERIFY(compared);
+    QCOMPARE(compared->offset(), 0.0);
+    QTRY_VERIFY(compared->offsetByKickOff());
+    const auto byKickOff = [&s](ComparedSession* session) {
+      auto menu = std::make_unique<QMenu>();
+      fillComparedMenu(menu.get(), s.window.compared(), session);
+      return menu;
+    };
+    const QString name = QStringLiteral("comparedByKickOff");
+    auto menu = byKickOff(compared);
+    menu->findChild<QAction*>(name)->trigger();
+    QCOMPARE(compared->offset(), 7.5);
+    menu = byKickOff(compared);
+    QVERIFY(!menu->findChild<QAction*>(name)->isEnabled());
+    // A session without a kick-off says so.
+    s.window.compared()->open({refereedSession(folder, "none.mcap", {})});
+    QTRY_COMPARE(s.window.compared()->all().size(), std::size_t{2});
+    ComparedSession* none = s.window.compared()->all().back();
+    QVERIFY(none != compared && !none->offsetByKickOff());
+    menu = byKickOff(none);
+    QVERIFY(menu->findChild<QAction*>(name)->toolTip().contains(QStringLiteral("no kick-off")));
   }
 
   void aFileThatCannotBeComparedIsANotice() {

@@ -3,6 +3,7 @@
 
 #include <QMimeData>
 #include <QPushButton>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QToolButton>
 #include <QtTest>
@@ -13,6 +14,7 @@
 #include <telemetry/session/session_writer.h>
 #include <ui/base/notice_bar.h>
 #include <ui/field/field_view.h>
+#include <ui/mapping/mapping_dialog.h>
 #include <ui/session/session_files.h>
 #include <ui/sources/event_list.h>
 #include <ui/sources/live_controller.h>
@@ -23,6 +25,7 @@
 #include <ui/window/main_window.h>
 #include <ui/window/scenario_files.h>
 
+#include "../../support/match_recordings.h"
 #include "live_rig.h"
 #include "session_rig.h"
 
@@ -347,6 +350,30 @@ class TestSessionFiles : public QObject {
     QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
     QApplication::sendEvent(&s.window, &drop);
     QTRY_COMPARE(opened.size(), 1);
+  }
+
+  /// The referee's log and a robot's table: both are in the dialog that puts them on one clock.
+  void droppedRecordingsOfAMatchAreMapped() {
+    Studio s(0);
+    const QTemporaryDir folder;
+    const QString log = folder.filePath(QStringLiteral("log.yaml"));
+    const QString robot = folder.filePath(QStringLiteral("robot3.csv"));
+    match_recordings::writeRefereeLog(log.toStdString(), {{1.0, 2, 0}, {20.0, 3, 0}});
+    match_recordings::writeRobotTable(robot.toStdString(), 5.0, 9.0, {{5.0, 2, 0}, {7.0, 3, 0}});
+    QMimeData data;
+    data.setUrls({QUrl::fromLocalFile(log), QUrl::fromLocalFile(robot)});
+    QDragEnterEvent enter({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&s.window, &enter);
+    QVERIFY(enter.isAccepted());
+    QDropEvent drop({50, 50}, Qt::CopyAction, &data, Qt::LeftButton, {});
+    QApplication::sendEvent(&s.window, &drop);
+    auto* dialog = s.window.findChild<MappingDialog*>();
+    QVERIFY(drop.isAccepted() && dialog != nullptr);
+    auto* times = dialog->findChild<QTableWidget*>(QStringLiteral("mappingTimes"));
+    QTRY_VERIFY(dialog->isUpToDate() && times->rowCount() == 2);
+    QCOMPARE(times->item(0, 0)->text(), QStringLiteral("log.yaml"));
+    QCOMPARE(times->item(1, 0)->text(), QStringLiteral("robot3.csv"));
+    dialog->reject();
   }
 };
 

@@ -250,6 +250,25 @@ class TestVariablesDock : public QObject {
     QCOMPARE(filter->variableCount(), 8);
   }
 
+  void enterInTheFilterLeadsToWhatWasFound() {
+    Bench bench;
+    bench.hand.take(twoRobots(), SourceKind::Simulate);
+    auto* box = bench.dock->findChild<QLineEdit*>(QStringLiteral("variablesFilter"));
+    const QSignalSpy plotted(bench.view, &VariablesView::plotRequested);
+    box->setFocus();
+    QTest::keyClicks(box, QStringLiteral("DIST b1"));
+    QTest::keyClick(box, Qt::Key_Return);
+    QTRY_COMPARE(QApplication::focusWidget(), static_cast<QWidget*>(bench.view));
+    QCOMPARE(bench.view->selectedVariables(), QStringList{QStringLiteral("B1/VISION_BALL_DIST")});
+    QCOMPARE(plotted.size(), 0);
+    QTest::keyClick(bench.view, Qt::Key_Return);
+    QCOMPARE(plotted.size(), 1);
+    box->setFocus();
+    QTest::keyClicks(box, QStringLiteral(" nonsense"));
+    QTest::keyClick(box, Qt::Key_Return);
+    QCOMPARE(QApplication::focusWidget(), static_cast<QWidget*>(box));
+  }
+
   void anAttachedBlackboardIsFoundByItsKey() {
     Bench bench;
     auto store = twoRobots();

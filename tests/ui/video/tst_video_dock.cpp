@@ -22,7 +22,9 @@
 #include <telemetry/session/session_videos.h>
 #include <ui/base/number_box.h>
 #include <ui/base/theme.h>
+#include <ui/base/time_axis.h>
 #include <ui/session/export_dialog.h>
+#include <ui/sources/live_controller.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/session_recording.h>
 #include <ui/sources/shown_moment.h>
@@ -30,8 +32,10 @@
 
 #include "../../support/numbered_clip.h"
 #include "../../support/program_run.h"
+#include "../live_window.h"
 #include "../studio_rig.h"
 #include "video_camera.h"
+#include "video_tracks.h"
 #include "video_view.h"
 
 namespace tst_video_dock {
@@ -213,6 +217,114 @@ class TestVideoDock : public QObject {
     QTRY_COMPARE_WITH_TIMEOUT(keptOf(file).at(0), s.camera()->kept(), patience_ms);
   }
 
+  /// The bar of a video is dragged along the time, with the picture of the moment in view.
+  void aBarIsDraggedAlongTheTime() {
+    Panel s;
+    // 4 s of the video are 4.2 s of the session: the drift stays.
+    const QString file = session("dragged.mcap", {{2.0, 0.0}, {6.2, 4.0}});
+    s.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(), patience_ms);
+    auto* tracks = s.find<VideoTracks>("videoTracks");
+    QTRY_VERIFY(tracks->isVisible() && tracks->barRect(0).width() > 20);
+    s.shown()->seek(6.21);
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), 100, patience_ms);
+    const QPoint grip = tracks->barRect(0).center().toPoint();
+    const auto moveTo = [tracks](QPoint at) {
+      QMouseEvent move(QEvent::MouseMove, at, tracks->mapToGlobal(at), Qt::NoButton, Qt::LeftButton,
+                       {});
+      QApplication::sendEvent(tracks, &move);
+    };
+    // To the right: it begins later, and earlier pictures belong to the moment.
+    const TimeAxis axis = tracks->axis();
+    const int way = qRound(1.0 / axis.secondsPerPixel());
+    const double by = way * axis.secondsPerPixel();
+    QTest::mousePress(tracks, Qt::LeftButton, {}, grip);
+    moveTo(grip + QPoint(way / 2, 0));
+    moveTo(grip + QPoint(way, 0));
+    QVERIFY(std::abs(s.camera()->alignment().offset - (2.0 + by)) < 1e-6);
+    QVERIFY(std::abs(s.camera()->alignment().rate - 1.05) < 1e-9);
+    const int expected = static_cast<int>(std::floor((6.21 - 2.0 - by) / 1.05 * 25.0));
+    QVERIFY(expected > 60 && expected < 90);
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), expected, patience_ms);
+    // How far is said, and the axis stands still meanwhile.
+    QCOMPARE(tracks->moveText(), QStringLiteral("+%1 s, starts at %2")
+                                     .arg(by, 0, 'f', 2)
+                                     .arg(momentText(std::round((2.0 + by) * 100.0) / 100.0, 2)));
+    QCOMPARE(tracks->axis(), axis);
+    QTest::mouseRelease(tracks, Qt::LeftButton, {}, grip + QPoint(way, 0));
+    QVERIFY(tracks->moveText().isEmpty());
+    QTRY_VERIFY_WITH_TIMEOUT(std::abs(keptOf(file).at(0).anchors.at(1).session - (6.2 + by)) < 1e-6,
+                             patience_ms);
+    // It is undone, also in the file.
+    auto* undo = s.window.findChild<QAction*>(QStringLiteral("undo"));
+    QCOMPARE(undo->text(), QStringLiteral("Undo Move video"));
+    undo->trigger();
+    QVERIFY(std::abs(s.camera()->alignment().offset - 2.0) < 1e-9);
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), 100, patience_ms);
+    QTRY_COMPARE_WITH_TIMEOUT(keptOf(file).at(0).anchors.at(0).session, 2.0, patience_ms);
+    s.window.findChild<QAction*>(QStringLiteral("redo"))->trigger();
+    QVERIFY(std::abs(s.camera()->alignment().offset - (2.0 + by)) < 1e-6);
+    undo->trigger();
+    // Escape gives a drag up, and a trembling click is none.
+    const QPoint here = tracks->barRect(0).center().toPoint();
+    QTest::mousePress(tracks, Qt::LeftButton, {}, here);
+    moveTo(here - QPoint(40, 0));
+    QVERIFY(s.camera()->alignment().offset < 1.9);
+    s.window.findChild<QAction*>(QStringLiteral("escape"))->trigger();
+    QVERIFY(std::abs(s.camera()->alignment().offset - 2.0) < 1e-9);
+    QTest::mouseRelease(tracks, Qt::LeftButton, {}, here - QPoint(40, 0));
+    QTest::mousePress(tracks, Qt::LeftButton, {}, here);
+    moveTo(here + QPoint(2, 0));
+    QTest::mouseRelease(tracks, Qt::LeftButton, {}, here + QPoint(2, 0));
+    QVERIFY(std::abs(s.camera()->alignment().offset - 2.0) < 1e-9);
+    QCOMPARE(undo->text(), QStringLiteral("Undo"));
+    // Typing a start is one step, however many numbers it takes.
+    s.press("alignVideo");
+    s.find<NumberBox>("videoBegin")->setValue(2.5);
+    s.find<NumberBox>("videoBegin")->setValue(2.75);
+    QCOMPARE(undo->text(), QStringLiteral("Undo Align video"));
+    undo->trigger();
+    QVERIFY(std::abs(s.camera()->alignment().offset - 2.0) < 1e-9);
+    QCOMPARE(s.find<NumberBox>("videoBegin")->value(), 2.0);
+    // Nothing can be undone in another session.
+    s.find<NumberBox>("videoBegin")->setValue(3.0);
+    s.open(path("match.mcap"));
+    QTRY_VERIFY_WITH_TIMEOUT(s.views().isEmpty(), patience_ms);
+    QCOMPARE(undo->text(), QStringLiteral("Undo"));
+    QVERIFY(!tracks->isVisible());
+  }
+
+  /// Each camera has a bar; a wheel turns seconds into pixels for a fine hand.
+  void barsOfSeveralCamerasAndAZoom() {
+    const QString file = session("bars.mcap");
+    auto videos = keptOf(file);
+    videos.push_back({m_clip.toStdString(), {{4.0, 0.0}}, {}});
+    QVERIFY(telemetry::writeSessionVideos(file.toStdString(), videos));
+    Panel s;
+    s.open(file);
+    auto* tracks = s.find<VideoTracks>("videoTracks");
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(0) && s.isOpen(1) && tracks->barRect(1).width() > 20,
+                             patience_ms);
+    QVERIFY(tracks->barRect(1).top() >= tracks->barRect(0).bottom());
+    QVERIFY(std::abs(tracks->axis().time(tracks->barRect(1).left()) - 4.0) <=
+            2 * tracks->axis().secondsPerPixel());
+    const QPointF at = tracks->barRect(1).center();
+    const double before = tracks->axis().secondsPerPixel(), anchor = tracks->axis().time(at.x());
+    QWheelEvent wheel(at, tracks->mapToGlobal(at), {}, {0, 600}, {}, {}, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(tracks, &wheel);
+    QVERIFY(tracks->axis().secondsPerPixel() < before / 2);
+    QVERIFY(std::abs(tracks->axis().time(at.x()) - anchor) < 1e-6);
+    QTest::mousePress(tracks, Qt::LeftButton, {}, at.toPoint());
+    QMouseEvent move(QEvent::MouseMove, at - QPointF(30, 0), tracks->mapToGlobal(at), Qt::NoButton,
+                     Qt::LeftButton, {});
+    QApplication::sendEvent(tracks, &move);
+    QTest::mouseRelease(tracks, Qt::LeftButton, {}, at.toPoint() - QPoint(30, 0));
+    QVERIFY(s.camera(1)->alignment().offset < 4.0);
+    QCOMPARE(s.camera(0)->alignment().offset, 2.0);
+    QTest::mouseDClick(tracks, Qt::LeftButton, {}, QPoint(2, 2));
+    QVERIFY(tracks->axis().secondsPerPixel() > before / 2);
+  }
+
   void videosAreFoundWhenTheyMoveWithTheSession() {
     QDir folder(m_folder.path());
     QVERIFY(folder.mkpath("first/cameras"));
@@ -353,6 +465,60 @@ class TestVideoDock : public QObject {
     s.shown()->seek(5.5);
     QTRY_COMPARE_WITH_TIMEOUT(s.number(), 112, patience_ms);
   }
+  /// Live robots: their past is looked back at with the video, which stays with the recording.
+  void liveRobotsAreLookedBackAt() {
+    Panel s;
+    s.window.recording()->setFolder(path(QStringLiteral("kept live")));
+    live_rig::LiveWindow live(s.window);
+    QVERIFY(live.isListening());
+    for (int i = 0; i < 3; ++i) QVERIFY(live.say());
+    s.window.recording()->start();
+    for (int i = 0; i < 3; ++i) QVERIFY(live.say());
+    const double then = s.window.live()->frame()->snapshot.time;
+    const int place = live.place();
+    for (int i = 0; i < 3; ++i) QVERIFY(live.say());
+    s.drop(m_clip);
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(), patience_ms);
+    // At the present it is the picture of this moment, and none once the video is over.
+    const auto isOfNow = [&s] {
+      if (!s.camera()->shown()) return false;
+      const double time = s.camera()->alignment().videoTime(s.shown()->time());
+      return s.camera()->isCovered() ? *s.camera()->shown() == s.camera()->indexAt(time)
+                                     : time >= clipLength / 25.0;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(!s.shown()->isLookingBack() && isOfNow(), patience_ms);
+    // Looking back: picture 50 is the moment of a message.
+    s.shown()->seek(then);
+    QVERIFY(s.shown()->isLookingBack());
+    s.press("alignVideo");
+    s.find<QSlider>("videoPosition")->setValue(50);
+    s.press("videoSameMoment");
+    s.press("alignDone");
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), 50, patience_ms);
+    // Robots go on sending; the picture stays.
+    QVERIFY(live.say());
+    QCOMPARE(s.shown()->time(), then);
+    QCOMPARE(s.number(), 50);
+    const QString file = s.window.recording()->path();
+    const auto isKept = [&file, then] {
+      const auto kept = keptOf(file);
+      return kept.size() == 1 && kept[0].anchors.size() == 1 &&
+             std::abs(kept[0].anchors[0].session - then) < 1e-6 &&
+             std::abs(kept[0].anchors[0].video - 2.0) < 1e-6;
+    };
+    QTRY_VERIFY_WITH_TIMEOUT(isKept(), patience_ms);
+    s.shown()->goLive();
+    QSignalSpy saved(s.window.recording(), &SessionRecording::saved);
+    s.window.recording()->stop();
+    QTRY_COMPARE_WITH_TIMEOUT(saved.size(), 1, patience_ms);
+    // In Replay the same picture stands beside the same place of the robot.
+    s.open(file);
+    QTRY_VERIFY_WITH_TIMEOUT(s.isOpen(), patience_ms);
+    s.shown()->seek(then);
+    QTRY_COMPARE_WITH_TIMEOUT(s.number(), 50, patience_ms);
+    QTRY_COMPARE_WITH_TIMEOUT(live.placeIn(s.shown()->frame()), place, patience_ms);
+  }
+
   void aRecordingWithoutVideosHasNoFileBesideIt() {
     Panel s;
     s.window.recording()->setFolder(path(QStringLiteral("plain")));

@@ -11,7 +11,10 @@ namespace pitchboard::ui {
 UndoHistory::UndoHistory(QObject* parent)
     : QObject(parent), m_undo(new QAction(this)), m_redo(new QAction(this)) {
   connect(m_undo, &QAction::triggered, this, [this] {
-    if (QUndoStack* stack = next(true)) stack->undo();
+    if (m_expected > 0)
+      m_undoesNext = true;
+    else if (QUndoStack* stack = next(true))
+      stack->undo();
   });
   connect(m_redo, &QAction::triggered, this, [this] {
     if (QUndoStack* stack = next(false)) stack->redo();
@@ -38,6 +41,18 @@ void UndoHistory::note(Part& part) {
   refresh();
 }
 
+void UndoHistory::expect() {
+  ++m_expected;
+  refresh();
+}
+
+void UndoHistory::answer(bool done) {
+  --m_expected;
+  if (!done) m_undoesNext = false;
+  if (m_expected == 0 && std::exchange(m_undoesNext, false)) m_undo->trigger();
+  refresh();
+}
+
 QUndoStack* UndoHistory::next(bool undo) const {
   QUndoStack* found = nullptr;
   quint64 best = 0;
@@ -61,7 +76,8 @@ void UndoHistory::refresh() {
                                   : QStringLiteral("Undo"));
   m_redo->setText(redo != nullptr ? QStringLiteral("Redo %1").arg(redo->redoText())
                                   : QStringLiteral("Redo"));
-  enableUnless(*m_undo, undo ? QString() : QStringLiteral("Nothing to undo here"));
+  enableUnless(*m_undo,
+               undo || m_expected > 0 ? QString() : QStringLiteral("Nothing to undo here"));
   enableUnless(*m_redo, redo ? QString() : QStringLiteral("Nothing to redo here"));
 }
 

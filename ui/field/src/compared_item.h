@@ -5,11 +5,13 @@
 // behind their names, so that they are told from robots, from what robots believe and from another
 // source's dotted rings without colour.
 
+#include <map>
 #include <vector>
 
 #include <ui/sources/frame_source.h>
 
 #include "field_item.h"
+#include "name_labels.h"
 
 namespace pitchboard::ui {
 
@@ -21,6 +23,12 @@ class ComparedItem : public FieldItem {
   /// Not null.
   void setFrame(const FramePtr& frame);
   int robots() const { return static_cast<int>(m_robots.size()); }
+  /// Appends its robots as they are on the screen, with ids that no other session has.
+  void addNamed(std::vector<NamedRobot>& all) const;
+  /// Writes the names of those robots there.
+  void placeNames(const std::map<RobotUid, QPointF>& centres);
+  /// Returns where names are written, in pixels of the screen; for tests.
+  std::vector<QRectF> nameRects() const;
   QRectF boundingRect() const override;
   void paint(QPainter* painter, const QStyleOptionGraphicsItem*, QWidget*) override;
 
@@ -28,10 +36,14 @@ class ComparedItem : public FieldItem {
   struct Robot {
     Pose pose;
     TeamColor team = TeamColor::Blue;
-    QString name;
+    QString name;     // with the mark of the session
+    QSizeF nameSize;  // px
     bool fallen = false;
+    QPointF nameOffset = {};  // px, from the robot
   };
   void paintRobot(QPainter* painter, const Robot& robot) const;
+  QPointF onScreen(const Robot& robot) const;
+  RobotUid idOf(std::size_t index) const;
 
   int m_number;
   std::vector<Robot> m_robots;

@@ -213,6 +213,7 @@ void FieldScene::styleChanged() {
   }
   if (m_frame) showFrame(m_frame);
   showHeat(m_heat->heat());
+  showComparedNames();
   update();
 }
 
@@ -375,6 +376,7 @@ void FieldScene::showCompared(int number, const FramePtr& frame) {
     if (known == m_compared.end()) return;
     delete known->second;
     m_compared.erase(known);
+    showComparedNamesSoon();
     return;
   }
   if (known == m_compared.end()) {
@@ -383,6 +385,25 @@ void FieldScene::showCompared(int number, const FramePtr& frame) {
     addItem(known->second);
   }
   known->second->setFrame(frame);
+  showComparedNamesSoon();
+}
+
+// Once for all sessions whose moments come together, and before they are painted.
+void FieldScene::showComparedNamesSoon() {
+  if (std::exchange(m_comparedMoved, true)) return;
+  QMetaObject::invokeMethod(this, &FieldScene::showComparedNames, Qt::QueuedConnection);
+}
+
+// Robots of several sessions often stand at the same place.
+void FieldScene::showComparedNames() {
+  m_comparedMoved = false;
+  std::vector<NamedRobot> robots;
+  for (const auto& [number, item] : m_compared) item->addNamed(robots);
+  std::map<RobotUid, QPointF> centres;
+  for (const PlacedName& name : placeNamesBelow(robots, m_comparedNames)) {
+    centres[name.id] = name.centre;
+  }
+  for (const auto& [number, item] : m_compared) item->placeNames(centres);
 }
 
 void FieldScene::showHeld(const std::vector<RobotPlacement>& robots, std::optional<Point> ball) {

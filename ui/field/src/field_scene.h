@@ -117,6 +117,8 @@ class FieldScene : public QGraphicsScene {
   void showTrail(Robot& robot, const link::RobotFrame& now);
   void showOtherPose(Robot& robot, const link::RobotFrame& now);
   void showNames();
+  void showComparedNames();
+  void showComparedNamesSoon();
   void showDebugOverlay();
   void showSelected();
   void setSelection(std::vector<RobotUid> ids);
@@ -135,6 +137,8 @@ class FieldScene : public QGraphicsScene {
   TeamBallsItem* m_teamBalls;
   std::unique_ptr<DrawingItems> m_drawings;
   std::map<int, ComparedItem*> m_compared;  // by the session's number
+  std::map<RobotUid, int> m_comparedNames;  // where they were written before (DirectionsBefore)
+  bool m_comparedMoved = false;             // since names were placed
   HeatItem* m_heat;
   SectorItem* m_eopra;
   SectorItem* m_starVars;

@@ -163,6 +163,22 @@ std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, const QRe
   return placed;
 }
 
+std::vector<PlacedName> placeNamesBelow(std::span<const NamedRobot> robots,
+                                        DirectionsBefore& before) {
+  std::vector<PlacedName> placed;
+  Search search{{}, {}, {}, tagSteps};
+  DirectionsBefore kept;
+  for (const NamedRobot& robot : robots) {
+    const auto known = before.find(robot.id);
+    const auto [box, direction] =
+        search.place(robot, robot.name, gap_px, known == before.end() ? below : known->second);
+    kept[robot.id] = direction;
+    placed.push_back({robot.id, box.center(), false});
+  }
+  before = std::move(kept);
+  return placed;
+}
+
 void NameLabelsItem::setRobots(std::vector<Robot> robots) {
   m_robots = std::move(robots);
   place();

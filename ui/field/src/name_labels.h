@@ -45,6 +45,12 @@ std::vector<PlacedName> placeTags(std::span<const NamedRobot> robots, const QRec
 std::vector<PlacedName> placeNames(std::span<const NamedRobot> robots, const QRectF& area,
                                    DirectionsBefore& before, std::vector<QRectF> taken = {});
 
+/// Returns a place for each name, below its robot where no name before it is, otherwise round it.
+/// Unlike those above, names may lie on discs: on hatched ones they can be read, and they stand
+/// still while robots pass each other.
+std::vector<PlacedName> placeNamesBelow(std::span<const NamedRobot> robots,
+                                        DirectionsBefore& before);
+
 class NameLabelsItem : public FieldItem {
  public:
   using FieldItem::FieldItem;

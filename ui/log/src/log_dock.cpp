@@ -110,6 +110,7 @@ class LogDock : public QWidget {
       connect(m_filter, changed, this, &LogDock::showEmpty);
     }
     connect(m_filter, &QAbstractItemModel::modelReset, this, &LogDock::showEmpty);
+    connect(m_filter, &QAbstractItemModel::layoutChanged, this, &LogDock::showEmpty);
     showEmpty();
     m_start->hide();
     connect(m_table, &QTableView::clicked, this, [this](const QModelIndex& index) {

@@ -18,9 +18,9 @@ bool isStartLine(const LogLine& line) {
 
 }  // namespace
 
-const std::string& LogModel::partOf(const Line& line) {
+LogModel::Part& LogModel::partOf(const Line& line) {
   static const std::string events = "\n";  // no origin has this name
-  return line.isEvent ? events : line.origin;
+  return m_parts[line.isEvent ? events : line.origin];
 }
 
 void LogModel::append(const std::vector<LogLine>& lines, const std::optional<QDateTime>& clock,
@@ -40,7 +40,8 @@ void LogModel::insert(std::vector<Line> lines) {
   const int first = static_cast<int>(m_lines.size());
   beginInsertRows({}, first, first + static_cast<int>(lines.size()) - 1);
   for (Line& line : lines) {
-    ++m_counts[partOf(line)];
+    line.part = &partOf(line);
+    ++line.part->lines;
     if (isStartLine(line)) ++m_startLines;
     m_lines.push_back(std::move(line));
   }
@@ -49,32 +50,14 @@ void LogModel::insert(std::vector<Line> lines) {
 
 void LogModel::makeRoom() {
   if (m_lines.size() <= maxLines + surplusLines) return;
+  std::erase_if(m_parts, [](const auto& part) { return part.second.lines == 0; });
+  const std::size_t share = maxLines / (2 * m_parts.size());
+  for (auto& [name, part] : m_parts) part.mayGo = part.lines - std::min(part.lines, share);
   const std::size_t surplus = m_lines.size() - maxLines;
-  // Parts give up what is above this level, so that the longest ones become equally long.
-  const auto above = [this](std::size_t level) {
-    std::size_t sum = 0;
-    for (const auto& [part, count] : m_counts) sum += count - std::min(count, level);
-    return sum;
-  };
-  std::size_t level = 0, tooHigh = m_lines.size();
-  while (tooHigh - level > 1) {
-    const std::size_t middle = level + (tooHigh - level) / 2;
-    (above(middle) >= surplus ? level : tooHigh) = middle;
-  }
-  std::size_t kept = above(level) - surplus;  // of those that would be too many
-  std::map<std::string, std::size_t, std::less<>> quotas;
-  for (const auto& [part, count] : m_counts) {
-    if (count <= level) continue;
-    const std::size_t less = std::min<std::size_t>(kept, 1);
-    kept -= less;
-    quotas[part] = count - level - less;
-  }
   std::size_t left = surplus;
-  forgetWhere([&quotas, &left](const Line& line) {
-    if (left == 0) return false;
-    const auto quota = quotas.find(partOf(line));
-    if (quota == quotas.end() || quota->second == 0) return false;
-    --quota->second;
+  forgetWhere([&left](const Line& line) {
+    if (left == 0 || line.part->mayGo == 0) return false;
+    --line.part->mayGo;
     --left;
     return true;
   });
@@ -99,7 +82,7 @@ void LogModel::forget(std::deque<Line>::iterator first, std::deque<Line>::iterat
   const int row = static_cast<int>(first - m_lines.begin());
   beginRemoveRows({}, row, row + static_cast<int>(last - first) - 1);
   for (auto line = first; line != last; ++line) {
-    --m_counts[partOf(*line)];
+    --line->part->lines;
     if (isStartLine(*line)) --m_startLines;
   }
   m_lines.erase(first, last);
@@ -166,7 +149,7 @@ void LogModel::strike(const SourceKind& of, std::uint32_t cause) {
 void LogModel::clear() {
   beginResetModel();
   m_lines.clear();
-  m_counts.clear();
+  m_parts.clear();
   m_dropped = 0;
   m_startLines = 0;
   endResetModel();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-// What was said by the simulation and the robots' processes: a bounded list, in which the origin
-// with the most lines gives up its oldest first, so that nobody pushes out what others said; and
-// which of them are shown. Window thread.
+// What was said by the simulation and the robots' processes: a bounded list, in which the oldest
+// lines go first, but never so many of an origin that others push out all that it said; and which
+// of them are shown. Window thread.
 
 #include <QAbstractTableModel>
 #include <QDateTime>
@@ -64,12 +64,18 @@ class LogModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
+  /// An origin's lines, or the events. It keeps half of an equal share, if it has so many: then
+  /// those that go are neighbours, and a line costs the same whether the list is full or not.
+  struct Part {
+    std::size_t lines = 0, mayGo = 0;
+  };
   struct Line : LogLine {
     std::optional<QDateTime> clock;
     const SourceKind* of = nullptr;  // the rows of kinds are never gone
     bool isEvent = false, isDivider = false, undone = false;
+    Part* part = nullptr;  // of m_parts
   };
-  static const std::string& partOf(const Line& line);
+  Part& partOf(const Line& line);
   void insert(std::vector<Line> lines);
   void makeRoom();
   void forgetWhere(const std::function<bool(const Line&)>& unwanted);
@@ -78,7 +84,7 @@ class LogModel : public QAbstractTableModel {
     return m_moment && line.of == m_shown && line.time > *m_moment;
   }
   std::deque<Line> m_lines;
-  std::map<std::string, std::size_t> m_counts;  // lines of each part
+  std::map<std::string, Part> m_parts;
   const SourceKind* m_shown = &SourceKind::Simulate;
   std::optional<double> m_moment;
   bool m_timesOfDay = true;
@@ -93,14 +99,14 @@ class LogFilter : public TextFilter {
   using TextFilter::TextFilter;
   void setLeast(LogLevel least) {
     m_least = least;
-    invalidateFilter();
+    filterAgain();
   }
   void showStartLines(bool shown) {
     m_startLinesShown = shown;
-    invalidateFilter();
+    filterAgain();
   }
   void showRecorded(bool shown) {
-    if (std::exchange(m_recordedShown, shown) != shown) invalidateFilter();
+    if (std::exchange(m_recordedShown, shown) != shown) filterAgain();
   }
 
  protected:

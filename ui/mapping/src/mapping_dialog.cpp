@@ -13,6 +13,8 @@
 #include <cmath>
 
 #include <base/file_target.h>
+#include <base/try.h>
+#include <robotlink/import/aligned_recordings.h>
 #include <robotlink/import/bridge_sample.h>
 #include <robotlink/import/import_session.h>
 #include <ui/base/file_dialog.h>
@@ -28,20 +30,30 @@ namespace pitchboard::ui {
 namespace {
 
 constexpr double bridgeSeconds = 2.0;
+std::vector<std::string> pathsOf(const QStringList& recordings) {
+  std::vector<std::string> paths;
+  for (const QString& path : recordings) paths.push_back(path.toStdString());
+  return paths;
+}
+
 const QString mappingFilter = QStringLiteral("Mappings (*.json);;All files (*)");
 
 }  // namespace
 
 MappingSource mappingSource(const QStringList& recordings) {
   MappingSource source;
-  std::vector<std::string> files;
-  for (const QString& path : recordings) files.push_back(path.toStdString());
+  const std::vector<std::string> files = pathsOf(recordings);
   source.name = recordings.size() == 1 ? QFileInfo(QDir::cleanPath(recordings.first())).fileName()
                                        : QStringLiteral("%1 recordings").arg(recordings.size());
   source.prepare = [files](const std::function<bool()>&) -> Result<link::OpenRecordings> {
-    return link::OpenRecordings([files](const std::vector<link::MappedRecording>& timing) {
-      return link::openTogether(files, timing);
-    });
+    using Opened = Result<std::vector<link::OpenedRecording>>;
+    return link::OpenRecordings(
+        [files](const std::vector<link::MappedRecording>& timing) -> Opened {
+          link::TopicMapping mapping;
+          mapping.recordings = timing;
+          if (files.size() > 1) TRY(link::nameRecordings(files, mapping));
+          return link::openTogether(files, mapping.recordings);
+        });
   };
   source.file = QString::fromStdString(link::mappingBeside(files.front()));
   source.recordings = recordings;
@@ -70,6 +82,15 @@ void MappingDialog::readFile() {
   if (!read) return showProblem(QString::fromStdString(read.error().text()));
   m_mapping = std::move(*read);
   m_isGiven = true;
+  nameAll();
+}
+
+/// Several recordings are no parts of one, but each its own.
+void MappingDialog::nameAll() {
+  // If two have the same name, opening them says so.
+  if (m_source.recordings.size() > 1) {
+    (void)link::nameRecordings(pathsOf(m_source.recordings), m_mapping);
+  }
 }
 
 void MappingDialog::prepare() {
@@ -136,7 +157,10 @@ void MappingDialog::showSample(const link::MappingSample& sample) {
     }
     showTimes();
   }
-  if (!m_isGiven) m_mapping = sample.mapping;
+  if (!m_isGiven) {
+    m_mapping = sample.mapping;
+    nameAll();
+  }
   m_momentText->setText(QStringLiteral("%1 s").arg(sample.time, 0, 'f', 2));
   m_topicTree->setTopics(m_topics);
   m_field->setSample(sample);
@@ -214,24 +238,23 @@ link::MappedRecording& MappingDialog::timingOf(link::TopicMapping& mapping,
   return *known;
 }
 
-/// Another recording of the same match: from now on each has its own times.
-void MappingDialog::addRecording() {
-  const QString path = askToOpen(this, QStringLiteral("Add recording"));
-  if (path.isEmpty() || m_source.recordings.contains(path)) return;
+/// Further recordings of the same match: from now on each has its own times.
+void MappingDialog::addRecordings() {
+  QStringList all = m_source.recordings;
+  for (const QString& path : askToOpenSeveral(this, QStringLiteral("Add recordings"))) {
+    if (!all.contains(path)) all << path;
+  }
+  if (all.size() == m_source.recordings.size()) return;
+  link::TopicMapping named = m_mapping;
+  if (const auto done = link::nameRecordings(pathsOf(all), named); !done) {
+    return showProblem(QString::fromStdString(done.error().text()));
+  }
   const QString file = m_source.file;
-  m_source = mappingSource(m_source.recordings + QStringList{path});
+  m_source = mappingSource(all);
   m_source.file = file;
   m_moment->setValue(m_moment->maximum());
   m_open.reset();
-  change([this](link::TopicMapping& mapping) {
-    for (const QString& recording : m_source.recordings) {
-      const std::string name = QFileInfo(QDir::cleanPath(recording)).fileName().toStdString();
-      const auto known = std::ranges::find(mapping.recordings, name, &link::MappedRecording::file);
-      if (known == mapping.recordings.end()) {
-        mapping.recordings.push_back({name, link::RecordingClock::Auto, 0.0});
-      }
-    }
-  });
+  change([&named](link::TopicMapping& mapping) { mapping.recordings = named.recordings; });
   prepare();
 }
 
@@ -240,12 +263,50 @@ void MappingDialog::moveRecording(std::size_t recording, double seconds) {
   change([&](link::TopicMapping& mapping) {
     double& offset = timingOf(mapping, recording).offset;
     offset = std::round((offset + seconds) * 1000.0) / 1000.0;
+    mapping.alignedBy.reset();
   });
 }
 
 void MappingDialog::setClock(std::size_t recording, link::RecordingClock clock) {
   m_moment->setValue(m_moment->maximum());
-  change([&](link::TopicMapping& mapping) { timingOf(mapping, recording).clock = clock; });
+  change([&](link::TopicMapping& mapping) {
+    timingOf(mapping, recording).clock = clock;
+    mapping.alignedBy.reset();
+  });
+}
+
+void MappingDialog::alignByTimes() {
+  m_moment->setValue(m_moment->maximum());
+  change([](link::TopicMapping& mapping) {
+    for (link::MappedRecording& recording : mapping.recordings) recording.offset = 0.0;
+    mapping.alignedBy.reset();
+  });
+}
+
+/// Looks for the event in all recordings, in the background.
+void MappingDialog::alignByEvent(link::AlignEvent event) {
+  m_moment->setValue(m_moment->maximum());
+  m_message->showMessage(InPlaceMessage::Tone::Note,
+                         QStringLiteral("Reading the states of the game…"));
+  const int begun = ++*m_generation;
+  ++m_pending;
+  m_worker.start([this, event, mapping = m_mapping, files = pathsOf(m_source.recordings), begun,
+                  generation = m_generation]() mutable {
+    Result<void> done = link::nameRecordings(files, mapping);
+    if (done) {
+      done = link::alignRecordings(files, event, mapping, [&] { return *generation == begun; });
+    }
+    m_toUi.post([this, done, mapping = std::move(mapping), begun, generation] {
+      --m_pending;
+      if (*generation != begun) return;
+      m_message->clear();
+      if (!done) showProblem(QString::fromStdString(done.error().text()));
+      const bool isChanged = done && mapping != m_mapping;
+      if (isChanged) change([&mapping](link::TopicMapping& changed) { changed = mapping; });
+      if (!isChanged) sample();  // this one has stopped another
+      showAlignment();
+    });
+  });
 }
 
 bool MappingDialog::save(const QString& file) {

@@ -34,6 +34,8 @@
 namespace pitchboard::ui {
 namespace {
 
+/// Places of the box that says by what recordings are aligned.
+enum AlignChoice { ByTimes, ByKickOff, BySet, ByHand };
 enum TimeColumn { FileColumn, ClockColumn, OffsetColumn, timeColumnCount };
 
 QComboBox* choice(QWidget* parent, const char* name, const QStringList& texts) {
@@ -323,22 +325,70 @@ QWidget* MappingDialog::makeTimes() {
   m_times->horizontalHeader()->resizeSection(ClockColumn, scaled(this, 240));
   m_strip = new OffsetStrip(m_timesPage);
   connect(m_strip, &OffsetStrip::moved, this, &MappingDialog::moveRecording);
-  auto* add = new QPushButton(QStringLiteral("Add recording…"), m_timesPage);
+  auto* add = new QPushButton(QStringLiteral("Add recordings…"), m_timesPage);
   add->setObjectName(QStringLiteral("mappingAddRecording"));
   add->setToolTip(
-      QStringLiteral("Another recording of the same match, such as that of the next robot"));
+      QStringLiteral("Other recordings of the same match, such as that of the next robot"));
   add->setAutoDefault(false);
-  connect(add, &QPushButton::clicked, this, &MappingDialog::addRecording);
+  connect(add, &QPushButton::clicked, this, &MappingDialog::addRecordings);
   auto* row = new QHBoxLayout;
   row->addWidget(m_times, 1);
   row->addWidget(add, 0, Qt::AlignTop);
   auto* column = new QVBoxLayout(m_timesPage);
   column->setContentsMargins(0, 0, 0, 0);
   column->addLayout(row);
+  column->addWidget(makeAlignment());
   column->addWidget(m_strip);
   m_timesPage->setVisible(!m_source.recordings.isEmpty());
   m_strip->hide();
   return m_timesPage;
+}
+
+QWidget* MappingDialog::makeAlignment() {
+  m_alignRow = new QWidget(m_timesPage);
+  m_align = choice(m_alignRow, "mappingAlign",
+                   {QStringLiteral("by their times"), QStringLiteral("by the kick-off"),
+                    QStringLiteral("by SET before the kick-off"), QStringLiteral("by hand")});
+  m_align->setToolTip(
+      QStringLiteral("Moves the recordings so that the event happens in all of them at once. "
+                     "Robots may be told of the kick-off later than the referee's log: use SET "
+                     "then"));
+  connect(m_align, &QComboBox::activated, this, &MappingDialog::alignBy);
+  auto* label = new QLabel(QStringLiteral("A&lign recordings:"), m_alignRow);
+  label->setBuddy(m_align);
+  auto* row = new QHBoxLayout(m_alignRow);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->addWidget(label);
+  row->addWidget(m_align);
+  row->addStretch(1);
+  m_alignRow->hide();
+  return m_alignRow;
+}
+
+void MappingDialog::alignBy(int which) {
+  switch (static_cast<AlignChoice>(which)) {
+    case ByTimes:
+      return alignByTimes();
+    case ByKickOff:
+      return alignByEvent(link::AlignEvent::KickOff);
+    case BySet:
+      return alignByEvent(link::AlignEvent::Set);
+    case ByHand:
+      change([](link::TopicMapping& mapping) { mapping.alignedBy.reset(); });
+      m_strip->setFocus();
+      return showAlignment();
+  }
+}
+
+void MappingDialog::showAlignment() {
+  const bool isMoved = std::ranges::any_of(
+      m_mapping.recordings, [](const link::MappedRecording& one) { return one.offset != 0.0; });
+  AlignChoice shown = isMoved ? ByHand : ByTimes;
+  if (m_mapping.alignedBy) {
+    shown = *m_mapping.alignedBy == link::AlignEvent::Set ? BySet : ByKickOff;
+  }
+  m_align->setCurrentIndex(shown);
+  m_alignRow->setVisible(m_source.recordings.size() > 1);
 }
 
 void MappingDialog::showTimes() {
@@ -359,7 +409,7 @@ void MappingDialog::showTimes() {
       m_times->setCellWidget(i, ClockColumn, clock);
       auto* offset = new NumberBox(m_times);
       offset->setObjectName(QStringLiteral("mappingOffset"));
-      offset->setRange(-1e6, 1e6);
+      offset->setRange(-1e10, 1e10);  // also for a clock that was never set
       offset->setDecimals(3);
       offset->setSuffix(QStringLiteral(" s"));
       offset->setKeyboardTracking(false);
@@ -378,6 +428,7 @@ void MappingDialog::showTimes() {
                           visible * m_times->verticalHeader()->defaultSectionSize() + 2);
   m_strip->setRecordings(m_recordings);
   m_strip->setVisible(rows > 1);
+  showAlignment();
   m_isShowing = false;
 }
 

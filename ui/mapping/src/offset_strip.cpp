@@ -72,7 +72,10 @@ void OffsetStrip::paintEvent(QPaintEvent*) {
     if (offset != 0.0)
       text += QStringLiteral("  %1%2 s").arg(offset > 0 ? "+" : "").arg(offset, 0, 'f', 2);
     painter.setPen(theme().text);
-    const QRectF room = QRectF(std::max(bar.left(), 0.0) + 6.0, bar.top(), width(), bar.height());
+    // A bar at the right edge has its text before it.
+    const double last = width() - painter.fontMetrics().horizontalAdvance(text) - 6.0;
+    const double left = std::max(std::min(bar.left() + 6.0, last), 6.0);
+    const QRectF room(left, bar.top(), width(), bar.height());
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft, text);
   }
 }

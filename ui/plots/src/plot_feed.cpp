@@ -63,10 +63,18 @@ void PlotFeed::refreshSoon() {
   if (m_running) m_refresh->want();
 }
 
+void PlotFeed::take(std::shared_ptr<const telemetry::SeriesStore> store) {
+  std::erase_if(m_firstOf, [](const auto& one) { return one.first.expired(); });
+  if (m_store && !m_first.isEmpty() && !m_robots.isEmpty()) m_firstOf[m_store] = m_first;
+  m_store = std::move(store);
+  if (const auto before = m_firstOf.find(m_store); before != m_firstOf.end())
+    m_first = before->second;
+}
+
 void PlotFeed::forget() {
   m_found.clear();
   m_views.clear();
-  m_store.reset();
+  take(nullptr);
   m_groupNames.clear();
   m_first.clear();
   m_firstAsked.clear();
@@ -80,7 +88,7 @@ void PlotFeed::refresh() {
   const auto store = m_source->series();
   const quint64 revision = store ? store->groupsRevision() : 0;
   if (store != m_store) {
-    m_store = store;
+    take(store);
     m_storeRevision = revision;
     m_groupNames = store ? store->groupNames() : std::vector<std::string>();
     m_found.clear();
@@ -122,7 +130,8 @@ void PlotFeed::orderRobots() {
   const qsizetype ours = std::ranges::find_if(robots, isTheirs) - robots.begin();
   if (now == m_robots && ours == m_ours) return;
   m_ours = ours;
-  if (m_robots.isEmpty()) m_first.clear();  // chosen before anybody knew who keeps the goal
+  // Chosen before anybody knew who keeps the goal.
+  if (m_robots.isEmpty() && !m_firstOf.contains(m_store)) m_first.clear();
   m_robots = std::move(now);
   ++m_looks;
   ++m_generation;  // drawn again in a match that is paused, too

@@ -126,6 +126,7 @@ class PlotFeed : public QObject {
  private:
   ColumnView named(const QString& name);
   void forget();
+  void take(std::shared_ptr<const telemetry::SeriesStore> store);
   void lookAgain();
   void noteNames();
   void orderRobots();
@@ -147,7 +148,9 @@ class PlotFeed : public QObject {
   quint64 m_rowsRead = 0;
   QStringList m_robots;  // ours before others, keepers last
   qsizetype m_ours = 0;  // how many of them are ours
-  QString m_first;       // what `first` stands for; empty while no value has changed
+  // What it stood for in sources that were shown before, and may be shown again.
+  std::map<std::weak_ptr<const telemetry::SeriesStore>, QString, std::owner_less<>> m_firstOf;
+  QString m_first;  // what `first` stands for; empty while no value has changed
   std::vector<QStringList> m_firstAsked;  // columns, while it is empty
   bool m_missed = false;                  // a curve waits for a missing variable
   std::optional<QDateTime> m_clock;

@@ -10,6 +10,7 @@
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTableView>
+#include <algorithm>
 #include <cmath>
 
 #include <base/file_target.h>
@@ -22,6 +23,33 @@
 
 namespace pitchboard::ui {
 namespace {
+
+/// Sorts and filters long lists without a QVariant for each cell.
+class RulesFilter : public TextFilter {
+ public:
+  using TextFilter::TextFilter;
+
+ protected:
+  bool filterAcceptsRow(int row, const QModelIndex& /*parent*/) const override {
+    const auto& rules = *static_cast<const RuleWatch*>(sourceModel());
+    const auto isInNumbers = [&rules, row](const QString& word) {
+      constexpr int numbers[] = {RuleWatch::From, RuleWatch::Duration, RuleWatch::Worst};
+      return std::ranges::any_of(numbers, [&](int column) {
+        return rules.index(row, column).data().toString().contains(word);
+      });
+    };
+    return std::ranges::all_of(words(), [&](const QString& word) {
+      return rules.contains(rules.broken()[static_cast<std::size_t>(row)], word) ||
+             (isNumeric(word) && isInNumbers(word));
+    });
+  }
+  bool lessThan(const QModelIndex& a, const QModelIndex& b) const override {
+    if (a.column() != RuleWatch::From) return TextFilter::lessThan(a, b);
+    const auto& broken = static_cast<const RuleWatch*>(sourceModel())->broken();
+    return broken[static_cast<std::size_t>(a.row())].from() <
+           broken[static_cast<std::size_t>(b.row())].from();
+  }
+};
 
 class RulesDock : public QWidget {
  public:
@@ -37,7 +65,7 @@ class RulesDock : public QWidget {
         m_save(new QPushButton(QStringLiteral("Save CSV…"), this)),
         m_message(new InPlaceMessage(this)),
         m_table(new QTableView(this)),
-        m_sorted(new TextFilter(this)),
+        m_sorted(new RulesFilter(this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyRules"))) {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
@@ -60,10 +88,10 @@ class RulesDock : public QWidget {
     connect(m_open, &QPushButton::clicked, this, [this] { askForRules(m_rules, this); });
     m_again->setObjectName(QStringLiteral("checkRulesAgain"));
     connect(m_again, &QPushButton::clicked, this,
-            [this] { m_rules->isRunning() && isSlow() ? m_rules->cancel() : m_rules->again(); });
+            [this] { m_rules->isReading() ? m_rules->cancel() : m_rules->again(); });
     m_filter->setObjectName(QStringLiteral("rulesFilter"));
     m_filter->setAccessibleName(QStringLiteral("Filter"));
-    m_filter->setPlaceholderText(QStringLiteral("Filter: rule, robot, severity"));
+    m_filter->setPlaceholderText(QStringLiteral("Filter: rule, robot, severity, session"));
     m_filter->setClearButtonEnabled(true);
     connect(m_filter, &QLineEdit::textChanged, m_sorted, &TextFilter::setFilterText);
     connect(m_filter, &QLineEdit::textChanged, this, &RulesDock::showState);
@@ -98,7 +126,9 @@ class RulesDock : public QWidget {
     m_table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     m_table->setSortingEnabled(true);
     m_table->sortByColumn(RuleWatch::From, Qt::AscendingOrder);
-    constexpr int widths[RuleWatch::columns] = {72, 150, 60, 96, 120, 72, 200};  // px of the mock
+    m_table->setIconSize(QSize(scaled(this, 8), scaled(this, 8)));
+    // px of the mock
+    constexpr int widths[RuleWatch::columns] = {72, 120, 150, 60, 96, 120, 72, 200};
     for (int column = 0; column < RuleWatch::columns; ++column) {
       m_table->setColumnWidth(column, scaled(this, widths[column]));
     }
@@ -140,6 +170,7 @@ class RulesDock : public QWidget {
     for (int row = 0; row < m_sorted->rowCount(); ++row) {
       if (!m_table->selectionModel()->isRowSelected(row, {})) continue;
       for (int column = 0; column < RuleWatch::columns; ++column) {
+        if (m_table->isColumnHidden(column)) continue;
         text += m_sorted->index(row, column).data().toString() +
                 QLatin1Char(column + 1 < RuleWatch::columns ? '\t' : '\n');
       }
@@ -151,8 +182,8 @@ class RulesDock : public QWidget {
   void askAndSave() {
     std::string text = telemetry::brokenRuleCsvHead();
     for (const BrokenRule* one : rowsShown(false)) {
-      text += telemetry::brokenRuleCsv(m_rules->sourceName().toStdString(), m_rules->ruleOf(*one),
-                                       one->moment);
+      text += telemetry::brokenRuleCsv(m_rules->sourceNameOf(*one).toStdString(),
+                                       m_rules->ruleOf(*one), one->moment);
     }
     const QString path =
         askToSave(this, QStringLiteral("Save the list of broken rules"),
@@ -165,8 +196,6 @@ class RulesDock : public QWidget {
                                    : QString::fromStdString(written.error().text()));
   }
 
-  bool isSlow() const { return !m_shown->kind().hasPresent; }
-
   QString stateText() const {
     if (m_rules->isCancelled()) return QStringLiteral("Cancelled");
     if (m_rules->rules().empty()) return {};
@@ -174,17 +203,17 @@ class RulesDock : public QWidget {
     const QString of = QFileInfo(m_rules->path()).fileName();
     const QString name = QStringLiteral("%1: %2 rules, ").arg(of).arg(m_rules->rules().size());
     if (all == 0) {
-      return name + (m_rules->isRunning() && isSlow() ? QStringLiteral("checking…")
-                                                      : QStringLiteral("never broken"));
+      return name +
+             (m_rules->isReading() ? QStringLiteral("checking…") : QStringLiteral("never broken"));
     }
     const QString shown =
         m_filter->text().isEmpty() ? QString() : QStringLiteral("%1 of ").arg(m_sorted->rowCount());
     return name + QStringLiteral("broken %1%2 times").arg(shown).arg(all) +
-           (all == RuleWatch::maxBroken ? QStringLiteral(", the newest ones") : QString());
+           (m_rules->isCut() ? QStringLiteral(", the newest ones") : QString());
   }
 
   void showState() {
-    const bool isWorking = m_rules->isRunning() && isSlow();
+    const bool isWorking = m_rules->isReading();
     const bool hasRules = !m_rules->rules().empty();
     m_again->setText(isWorking ? QStringLiteral("Cancel") : QStringLiteral("Check again"));
     m_again->setToolTip(isWorking ? QString()
@@ -197,13 +226,14 @@ class RulesDock : public QWidget {
     m_filter->setEnabled(hasRules);
     m_save->setEnabled(!m_rules->broken().empty());
     m_table->setVisible(hasRules);
+    m_table->setColumnHidden(RuleWatch::Session, !m_rules->isComparing());
     m_empty->setVisible(!hasRules);
     m_empty->setText(
         m_rules->path().isEmpty()
             ? QStringLiteral(
                   "A rule is a condition that must not hold, such as BELIEF_ERROR > 50 for 2 s. "
-                  "Open a file with rules to see when they are broken: in a recording, in Live "
-                  "and in a simulated match.")
+                  "Open a file with rules to see when they are broken: in a recording and those "
+                  "that are compared with it, in Live and in a simulated match.")
             : QStringLiteral("This file has no rules that can be checked. Correct it, then press "
                              "Check again, or open another file."));
     const QString problems = shortListOf(m_rules->problems());
@@ -226,7 +256,7 @@ class RulesDock : public QWidget {
   QPushButton* m_save;
   InPlaceMessage* m_message;
   QTableView* m_table;
-  TextFilter* m_sorted;
+  RulesFilter* m_sorted;
   QLabel* m_empty;
   QString m_said;
   bool m_followsEnd = true;

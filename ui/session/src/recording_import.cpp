@@ -83,9 +83,10 @@ void RecordingImport::run(const QString& path, Work work) {
   // The window's title and the export dialog call the session by the recording's name.
   const QDir folder(m_folder->filePath(QString::number(++m_count)));
   QDir().mkpath(folder.path());
-  const QString name =
-      QFileInfo(path).isDir() ? QDir(path).dirName() : QFileInfo(path).completeBaseName();
-  const QString to = folder.filePath(name + QStringLiteral(".mcap"));
+  // table.csv and table.mcap may be recordings of the same folder.
+  const QString ending = QStringLiteral(".mcap");
+  const QString name = QFileInfo(path).isDir() ? QDir(path).dirName() : QFileInfo(path).fileName();
+  const QString to = folder.filePath(name.endsWith(ending) ? name : name + ending);
   m_worker.start([this, path, to, work = std::move(work), cancelled = m_cancelled] {
     int shown = -1;
     const auto notes = work(to.toStdString(), [&](double share) {

@@ -117,7 +117,8 @@ SessionFiles::SessionFiles(ReplayController* replay, MatchController* controller
   connect(shown, &ShownMoment::sourceChosen, this, [this] {
     const bool isShown = m_shown->source() == m_replay;
     if (!isShown) {
-      for (const QString& topic : {openTopic, repairTopic, contentTopic}) m_notices->settle(topic);
+      for (const QString& topic : {openTopic, repairTopic, contentTopic, importTopic})
+        m_notices->settle(topic);
       return;
     }
     if (m_replay->isBroken()) offerRepair(brokenText(m_replay->path()));
@@ -184,6 +185,16 @@ void SessionFiles::showImported(const QString& recording, const QString& session
   m_notices->show({importTopic}, text, buttons);
   m_before = m_replay->recording();
   m_replay->open(session);
+}
+
+void SessionFiles::openAll(const QStringList& paths) {
+  // Of one match: they are put on one clock first.
+  if (paths.size() > 1 && std::ranges::any_of(paths, &RecordingImport::isOfOthers)) {
+    emit mappingWanted(paths);
+    return;
+  }
+  open(paths.front());
+  m_beside = paths.mid(1);
 }
 
 /// The others of several files that were dropped at once.
@@ -277,8 +288,7 @@ bool SessionFiles::eventFilter(QObject* watched, QEvent* event) {
     const QStringList paths = droppedSessions(drop->mimeData());
     if (!paths.isEmpty()) {
       drop->acceptProposedAction();
-      open(paths.front());
-      m_beside = paths.mid(1);
+      openAll(paths);
       return true;
     }
   }

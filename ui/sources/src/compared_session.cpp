@@ -5,11 +5,30 @@
 #include <cmath>
 #include <utility>
 
+#include <ui/base/session_mark.h>
+#include <ui/sources/event_list.h>
 #include <ui/sources/shown_moment.h>
 
 #include "event_collector.h"
 
 namespace pitchboard::ui {
+namespace {
+
+using link::MatchEventKind;
+
+/// When PLAYING begins first; s. The state in which a referee is first received did not begin then.
+std::optional<double> kickOffIn(const EventList& list) {
+  std::optional<double> receivedAt;
+  for (const link::MatchEvent& event : list.events()) {
+    if (event.kind == MatchEventKind::RefereeReceived) receivedAt = event.time;
+    const bool isPlaying =
+        event.kind == MatchEventKind::GameState && event.state == PlayState::Playing;
+    if (isPlaying && event.time != receivedAt) return event.time;
+  }
+  return {};
+}
+
+}  // namespace
 
 ComparedSession::ComparedSession(quint64 id, ShownMoment* shown, QObject* parent)
     : QObject(parent), m_id(id), m_shown(shown), m_events(new EventCollector(&m_file)) {
@@ -49,6 +68,10 @@ QString ComparedSession::name() const {
   return QFileInfo(m_file.path()).completeBaseName();
 }
 
+QString ComparedSession::markedName() const {
+  return sessionMark(m_number) + QLatin1Char(' ') + name();
+}
+
 void ComparedSession::setMemoryBudget(std::size_t bytes) {
   m_budget = bytes;
   m_file.setMemoryBudget(bytes);
@@ -84,6 +107,21 @@ void ComparedSession::align() {
     setOffset(*m_here - *m_there);
   else
     emit changed();
+}
+
+std::optional<double> ComparedSession::offsetByKickOff() const {
+  const auto here = kickOffIn(*m_shown->events());
+  const auto there = kickOffIn(*events());
+  if (!here || !there) return {};
+  return *here - *there;
+}
+
+void ComparedSession::alignByKickOff() {
+  const auto offset = offsetByKickOff();
+  if (!offset) return;
+  m_here.reset();
+  m_there.reset();
+  setOffset(*offset);
 }
 
 void ComparedSession::alignByTime() {

@@ -20,6 +20,7 @@ MatchEdits::MatchEdits(MatchController* match)
   });
   connect(match, &MatchController::scenarioChanged, this, [this] {
     if (!m_replacing) m_undoStack->clear();
+    while (m_unanswered > 0) answer(false);
     const link::Scenario scenario = m_match->isOpening() ? m_match->scenario() : link::Scenario{};
     m_robots.clear();
     m_added.clear();
@@ -78,14 +79,26 @@ void MatchEdits::perform(MatchEdit edit) {
   if (!(m_match->isOpen() || m_match->isOpening()) || !allowsChange()) return;
   const auto made = std::make_shared<Performed>();
   made->edit = std::move(edit);
-  carryOut(made, [this, made] {
-    m_undoStack->push(
-        new EditCommand({made->edit.text, [this, made] { carryOut(made); },
-                         [this, made] { takeBack(made); }, made->edit.mergeKey, made->refused}));
-  });
+  ++m_unanswered;
+  emit sent();
+  carryOut(
+      made,
+      [this, made] {
+        m_undoStack->push(new EditCommand({made->edit.text, [this, made] { carryOut(made); },
+                                           [this, made] { takeBack(made); }, made->edit.mergeKey,
+                                           made->refused}));
+        answer(true);
+      },
+      [this] { answer(false); });
 }
 
-void MatchEdits::carryOut(const std::shared_ptr<Performed>& made, std::function<void()> onSuccess) {
+void MatchEdits::answer(bool done) {
+  --m_unanswered;
+  emit answered(done);
+}
+
+void MatchEdits::carryOut(const std::shared_ptr<Performed>& made, std::function<void()> onSuccess,
+                          const std::function<void()>& onFailure) {
   const MatchEdit& edit = made->edit;
   if (edit.note) edit.note();
   m_match->post({edit.whatFailed,
@@ -96,10 +109,11 @@ void MatchEdits::carryOut(const std::shared_ptr<Performed>& made, std::function<
                    made->carriedOut = true;
                    return {};
                  },
-                 [this, made] {
+                 [this, made, onFailure] {
                    if (made->edit.takeBack) made->edit.takeBack();
                    *made->refused = true;
                    dropRefused();
+                   if (onFailure) onFailure();
                  },
                  std::move(onSuccess), edit.changes});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <ui/sources/rule_watch.h>
 
+#include <QFileInfo>
 #include <QSettings>
 #include <algorithm>
 #include <atomic>
@@ -8,8 +9,11 @@
 #include <limits>
 
 #include <telemetry/query/moment_watch.h>
+#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/base/time_axis.h>
+#include <ui/sources/compared_session.h>
+#include <ui/sources/compared_sessions.h>
 #include <ui/sources/replay_controller.h>
 #include <ui/sources/shown_moment.h>
 
@@ -19,6 +23,8 @@ namespace {
 using telemetry::RuleSeverity;
 
 constexpr int pauseMilliseconds = 250;  // while rows come
+// s; datagrams of robots are not read in the order of the times that their rows get.
+constexpr double lateInLive = 0.5;
 const QString rulesFileKey = QStringLiteral("rules/file");
 
 QString fromUtf8(const std::string& text) {
@@ -27,23 +33,35 @@ QString fromUtf8(const std::string& text) {
 
 }  // namespace
 
-/// What the worker has; only one of its orders runs at a time.
+/// What a worker has; only one of its orders runs at a time.
 struct RuleWatch::Search {
   explicit Search(std::vector<telemetry::MomentQuestion> questions) : watch(std::move(questions)) {}
   telemetry::MomentWatch watch;
-  std::string path;  // of a recording; empty: rows in memory
+  std::string path;     // of a recording; empty: rows in memory
+  quint64 session = 0;  // id of a compared session; 0: the source that is shown
+  double late = 0.0;    // s; so much before the newest row others may still come
+  double part = 0.0;    // of the recording that has been read; the UI's
   std::atomic<bool> cancelled = false;
+
+  static void stop(std::shared_ptr<Search>& search) {
+    if (search) search->cancelled = true;
+    search.reset();
+  }
 };
 
-struct RuleWatch::Progress {
-  std::vector<BrokenRule> found;
+struct RuleWatch::Found {
+  std::vector<BrokenRule> broken;
   std::vector<telemetry::UnansweredQuestion> unanswered;
   std::optional<Error> error;
 };
 
-RuleWatch::RuleWatch(ShownMoment* shown, ReplayController* replay, QSettings* settings,
-                     QObject* parent)
-    : QAbstractTableModel(parent), m_shown(shown), m_replay(replay), m_settings(settings) {
+RuleWatch::RuleWatch(ShownMoment* shown, ReplayController* replay, ComparedSessions* compared,
+                     QSettings* settings, QObject* parent)
+    : QAbstractTableModel(parent),
+      m_shown(shown),
+      m_replay(replay),
+      m_compared(compared),
+      m_settings(settings) {
   m_pause.setSingleShot(true);
   m_pause.setInterval(pauseMilliseconds);
   connect(&m_pause, &QTimer::timeout, this, &RuleWatch::advance);
@@ -56,26 +74,29 @@ RuleWatch::RuleWatch(ShownMoment* shown, ReplayController* replay, QSettings* se
   connect(shown, &ShownMoment::timesOfDayChanged, this, [this] {
     if (!m_broken.empty()) emit dataChanged(index(0, From), index(rowCount() - 1, From));
   });
+  connect(compared, &ComparedSessions::changed, this, &RuleWatch::followCompared);
   if (settings != nullptr) m_path = settings->value(rulesFileKey).toString();
   if (!m_path.isEmpty()) again();
 }
 
 RuleWatch::~RuleWatch() {
-  if (m_search) m_search->cancelled = true;
+  Search::stop(m_search);
+  Search::stop(m_reading);
 }
 
 Result<void> RuleWatch::open(const QString& path) {
   m_path = path;
   if (m_settings != nullptr) m_settings->setValue(rulesFileKey, path);
   auto rules = telemetry::rulesFromFile(path.toStdString());
-  beginResetModel();
-  m_broken.clear();
-  m_rules = rules ? std::move(*rules) : std::vector<telemetry::Rule>();
-  endResetModel();
+  forgetAll();
+  if (rules) m_rules = std::move(*rules);
+  for (const telemetry::Rule& rule : m_rules) {
+    m_ruleTexts.push_back(
+        fromUtf8(std::string(nameOf(rule.severity)) + '\n' + rule.name + '\n' + rule.text));
+  }
+  m_fileProblem = rules ? QString() : fromUtf8(rules.error().text());
   restart();
   if (rules) return {};
-  m_problems = QStringList{fromUtf8(rules.error().text())};
-  emit changed();
   return tl::unexpected(rules.error());
 }
 
@@ -86,17 +107,30 @@ void RuleWatch::again() {
 void RuleWatch::close() {
   m_path.clear();
   if (m_settings != nullptr) m_settings->remove(rulesFileKey);
-  beginResetModel();
-  m_broken.clear();
-  m_rules.clear();
-  endResetModel();
+  forgetAll();
   restart();
 }
 
+/// The rules, and what was found with them.
+void RuleWatch::forgetAll() {
+  Search::stop(m_reading);
+  m_checked.clear();
+  m_problems.clear();
+  m_cut.clear();
+  m_fileProblem.clear();
+  beginResetModel();
+  m_broken.clear();
+  m_rules.clear();
+  m_ruleTexts.clear();
+  endResetModel();
+}
+
 void RuleWatch::cancel() {
-  if (m_search) m_search->cancelled = true;
-  m_search.reset();
-  m_running = false;
+  if (isRecording()) {
+    Search::stop(m_search);
+    m_running = false;
+  }
+  Search::stop(m_reading);
   m_cancelled = true;
   emit changed();
 }
@@ -105,16 +139,41 @@ bool RuleWatch::isRecording() const {
   return m_shown->source() == m_replay;
 }
 
+bool RuleWatch::isComparing() const {
+  return !m_compared->isEmpty();
+}
+
+double RuleWatch::progress() const {
+  double files = static_cast<double>(m_compared->all().size());
+  double done = static_cast<double>(m_checked.size()) + (m_reading ? m_reading->part : 0.0);
+  if (isRecording()) {
+    files += 1.0;
+    done += m_search ? m_search->part : 1.0;
+  }
+  return files > 0.0 ? std::min(done / files, 1.0) : 1.0;
+}
+
+QStringList RuleWatch::problems() const {
+  QStringList all;
+  if (!m_fileProblem.isEmpty()) all << m_fileProblem;
+  for (const auto& [id, problems] : m_problems) {
+    const ComparedSession* session = m_compared->find(id);
+    const QString who = session ? session->markedName() + QStringLiteral(": ") : QString();
+    for (const QString& problem : problems) all << who + problem;
+  }
+  return all;
+}
+
+/// Checks the source that is shown from its beginning; compared sessions stay as they are.
 void RuleWatch::restart() {
-  if (m_search) m_search->cancelled = true;
-  m_search.reset();
+  Search::stop(m_search);
   m_pause.stop();
   m_running = m_cancelled = false;
-  m_progress = 0.0;
-  m_problems.clear();
-  if (!m_broken.empty()) {
+  m_problems.erase(0);
+  m_cut.erase(0);
+  if (std::ranges::count(m_broken, quint64{0}, &BrokenRule::session) > 0) {
     beginResetModel();
-    m_broken.clear();
+    std::erase_if(m_broken, [](const BrokenRule& one) { return one.session == 0; });
     endResetModel();
   }
   listEvents();
@@ -122,8 +181,10 @@ void RuleWatch::restart() {
   if (!m_rules.empty() && (!isRecording() || !m_replay->path().isEmpty())) {
     m_search = std::make_shared<Search>(telemetry::questionsOf(m_rules));
     if (isRecording()) m_search->path = m_replay->path().toStdString();
+    if (&m_shown->kind() == &SourceKind::Live) m_search->late = lateInLive;
     advance();
   }
+  readNextCompared();
   emit changed();
 }
 
@@ -135,84 +196,167 @@ void RuleWatch::advance() {
   const auto rows = m_shown->series();
   if (!m_search || m_running || (m_search->path.empty() && rows == nullptr)) return;
   m_running = true;
-  m_worker.start([this, search = m_search, rows] {
-    if (search->cancelled) return;
+  start(m_worker, m_search, rows);
+}
+
+/// Sessions were opened, closed or aligned. What was found in them stays true.
+void RuleWatch::followCompared() {
+  const auto isClosed = [this](quint64 id) { return id != 0 && m_compared->find(id) == nullptr; };
+  if (m_reading && isClosed(m_reading->session)) Search::stop(m_reading);
+  std::erase_if(m_checked, isClosed);
+  std::erase_if(m_cut, isClosed);
+  std::erase_if(m_problems, [&](const auto& one) { return isClosed(one.first); });
+  std::map<quint64, double> offsets{{0, 0.0}};
+  for (const ComparedSession* one : m_compared->all()) offsets[one->id()] = one->offset();
+  const auto isElsewhere = [&offsets](const BrokenRule& one) {
+    const auto found = offsets.find(one.session);
+    return found == offsets.end() || found->second != one.offset;
+  };
+  if (std::ranges::any_of(m_broken, isElsewhere)) {
+    beginResetModel();
+    std::erase_if(m_broken, [&](const BrokenRule& one) { return isClosed(one.session); });
+    for (BrokenRule& one : m_broken) one.offset = offsets.at(one.session);
+    std::ranges::stable_sort(m_broken, {}, &BrokenRule::from);
+    endResetModel();
+  }
+  readNextCompared();
+  emit changed();
+}
+
+void RuleWatch::readNextCompared() {
+  if (m_rules.empty() || m_cancelled || m_reading) return;
+  const auto& all = m_compared->all();
+  const auto next = std::ranges::find_if(
+      all, [this](const ComparedSession* one) { return !m_checked.contains(one->id()); });
+  if (next == all.end()) return;
+  m_reading = std::make_shared<Search>(telemetry::questionsOf(m_rules));
+  m_reading->path = (*next)->path().toStdString();
+  m_reading->session = (*next)->id();
+  start(m_reader, m_reading, nullptr);
+}
+
+void RuleWatch::start(Workers& worker, const std::shared_ptr<Search>& search, const Rows& rows) {
+  worker.start([this, search, rows] {
     int shown = 0;
-    const auto progress = [&](double part) {
+    const auto progress = [this, search, &shown](double part) {
       constexpr int steps = 100;
       if (const int step = static_cast<int>(part * steps); std::exchange(shown, step) != step) {
         m_ui.post([this, part, search] {
-          if (search != m_search) return;
-          m_progress = part;
-          emit changed();
+          search->part = part;
+          if (search == m_search || search == m_reading) emit changed();
         });
       }
       return !search->cancelled;
     };
-    Progress out;
-    if (search->path.empty()) {
-      const telemetry::QueryRows memory(*rows);
-      // The newest moment may have no row of some robots yet.
-      const auto range = memory.range();
-      const double until = range ? std::nextafter(range->end, -1.0) : 0.0;
-      if (range && !search->watch.advance(memory, until, progress)) return;
-    } else {
-      telemetry::McapReaderOptions reading;
-      reading.progress = [&](double) { return progress(0.0); };
-      const auto session = telemetry::SessionReader::open(search->path, reading);
-      const auto range = session ? session->range() : std::nullopt;
-      if (!session) out.error = session.error();
-      if (range && !search->watch.advance(*session, range->end, progress)) return;
-    }
-    for (auto& one : search->watch.takeEnded()) out.found.push_back({std::move(one), false});
-    for (auto& one : search->watch.open()) {
-      out.found.push_back({std::move(one), search->path.empty()});
-    }
-    out.unanswered = search->watch.unanswered();
-    m_ui.post([this, search, out = std::make_shared<Progress>(std::move(out))] {
-      take(search, std::move(*out));
+    auto found = searched(*search, rows, progress);
+    if (!found) return;
+    m_ui.post([this, search, found = std::make_shared<Found>(std::move(*found))] {
+      take(search, std::move(*found));
     });
   });
 }
 
-void RuleWatch::take(const std::shared_ptr<Search>& search, Progress&& found) {
-  if (search != m_search) return;
-  m_running = false;
-  m_progress = 1.0;
-  m_problems.clear();
-  if (found.error) m_problems << fromUtf8(found.error->text());
-  for (const telemetry::UnansweredQuestion& one : found.unanswered) {
-    m_problems << QStringLiteral("%1 is not checked: %2")
-                      .arg(fromUtf8(m_rules[one.question].name), fromUtf8(one.error.message));
-  }
-  constexpr std::size_t many = 100;
-  if (found.found.size() > many) {
-    beginResetModel();
-    std::erase_if(m_broken, &BrokenRule::goesOn);
-    m_broken.insert(m_broken.end(), found.found.begin(), found.found.end());
-    std::ranges::stable_sort(m_broken, {},
-                             [](const BrokenRule& one) { return one.moment.range.begin; });
-    if (m_broken.size() > maxBroken) m_broken.erase(m_broken.begin(), m_broken.end() - maxBroken);
-    endResetModel();
-    listEvents();
+/// Runs on a worker. Returns nothing if it was cancelled.
+std::optional<RuleWatch::Found> RuleWatch::searched(Search& search, const Rows& rows,
+                                                    const std::function<bool(double)>& progress) {
+  if (search.cancelled) return {};
+  Found out;
+  if (search.path.empty()) {
+    const telemetry::QueryRows memory(*rows);
+    // The newest moment may have no row of some robots yet.
+    const auto range = memory.range();
+    const double until = range ? std::nextafter(range->end, -1.0) - search.late : 0.0;
+    if (range && !search.watch.advance(memory, until, progress)) return {};
   } else {
-    QString sentence;
-    int news = 0;
-    for (BrokenRule& one : found.found) {
-      const QString own = sentenceOf(one);
-      if (list(std::move(one)) && news++ == 0) sentence = own;
+    telemetry::McapReaderOptions reading;
+    reading.progress = [&progress](double) { return progress(0.0); };
+    const auto session = telemetry::SessionReader::open(search.path, reading);
+    const auto range = session ? session->range() : std::nullopt;
+    if (search.cancelled) return {};
+    if (!session) out.error = session.error();
+    if (range && !search.watch.advance(*session, range->end, progress)) return {};
+  }
+  for (auto& one : search.watch.takeEnded()) {
+    out.broken.push_back({std::move(one), false, search.session, 0.0});
+  }
+  for (auto& one : search.watch.open()) {
+    out.broken.push_back({std::move(one), search.path.empty(), search.session, 0.0});
+  }
+  out.unanswered = search.watch.unanswered();
+  return out;
+}
+
+void RuleWatch::take(const std::shared_ptr<Search>& search, Found&& found) {
+  if (search != m_search && search != m_reading) return;
+  search->part = 1.0;
+  noteProblems(search->session, found);
+  constexpr std::size_t many = 100;
+  if (search == m_reading) {
+    m_checked.insert(search->session);
+    m_reading.reset();
+    listAll(search->session, std::move(found.broken), maxBrokenCompared);
+    readNextCompared();
+  } else {
+    m_running = false;
+    if (found.broken.size() > many) {
+      listAll(0, std::move(found.broken), maxBroken);
+      listEvents();
+    } else {
+      listNew(std::move(found.broken));
     }
-    if (news > 1) sentence += QStringLiteral(" (and %1 more)").arg(news - 1);
-    if (news > 0) emit broke(sentence);
   }
   emit changed();
+}
+
+void RuleWatch::noteProblems(quint64 session, const Found& found) {
+  QStringList problems;
+  if (found.error) problems << fromUtf8(found.error->text());
+  for (const telemetry::UnansweredQuestion& one : found.unanswered) {
+    problems << QStringLiteral("%1 is not checked: %2")
+                    .arg(fromUtf8(m_rules[one.question].name), fromUtf8(one.error.message));
+  }
+  if (problems.isEmpty())
+    m_problems.erase(session);
+  else
+    m_problems[session] = problems;
+}
+
+/// Adds many at once, without a signal for each.
+void RuleWatch::listAll(quint64 session, std::vector<BrokenRule>&& found, std::size_t most) {
+  const auto isOfSession = [session](const BrokenRule& one) { return one.session == session; };
+  const ComparedSession* compared = m_compared->find(session);
+  for (BrokenRule& one : found) one.offset = compared != nullptr ? compared->offset() : 0.0;
+  beginResetModel();
+  std::erase_if(m_broken, [&](const BrokenRule& one) { return one.goesOn && isOfSession(one); });
+  m_broken.insert(m_broken.end(), std::make_move_iterator(found.begin()),
+                  std::make_move_iterator(found.end()));
+  std::ranges::stable_sort(m_broken, {}, &BrokenRule::from);
+  const auto all = static_cast<std::size_t>(std::ranges::count_if(m_broken, isOfSession));
+  std::size_t tooMany = all > most ? all - most : 0;
+  if (tooMany > 0) m_cut.insert(session);
+  std::erase_if(m_broken, [&](const BrokenRule& one) {
+    return tooMany > 0 && isOfSession(one) && tooMany-- > 0;
+  });
+  endResetModel();
+}
+
+/// Adds a few of the source that is shown, and tells of those that are news.
+void RuleWatch::listNew(std::vector<BrokenRule>&& found) {
+  QString sentence;
+  int news = 0;
+  for (BrokenRule& one : found) {
+    const QString own = sentenceOf(one);
+    if (list(std::move(one)) && news++ == 0) sentence = own;
+  }
+  if (news > 1) sentence += QStringLiteral(" (and %1 more)").arg(news - 1);
+  if (news > 0) emit broke(sentence);
 }
 
 /// Adds a line, or continues that of a rule that was broken already. Returns whether it is new and
 /// somebody should know now.
 bool RuleWatch::list(BrokenRule&& one) {
   const auto known = std::ranges::find_if(m_broken, [&one](const BrokenRule& other) {
-    return other.goesOn && other.moment.question == one.moment.question &&
+    return other.goesOn && other.session == 0 && other.moment.question == one.moment.question &&
            other.moment.range.begin == one.moment.range.begin &&
            other.moment.robot == one.moment.robot;
   });
@@ -224,20 +368,27 @@ bool RuleWatch::list(BrokenRule&& one) {
   }
   const bool isNews = ruleOf(one).severity == RuleSeverity::Error &&
                       one.moment.range.begin >= m_since && !isRecording();
-  const auto place =
-      std::ranges::upper_bound(m_broken, one.moment.range.begin, {},
-                               [](const BrokenRule& each) { return each.moment.range.begin; });
+  const auto place = std::ranges::upper_bound(m_broken, one.from(), {}, &BrokenRule::from);
   const int row = static_cast<int>(place - m_broken.begin());
   m_shown->events()->add(eventOf(one));
   beginInsertRows({}, row, row);
   m_broken.insert(place, std::move(one));
   endInsertRows();
-  if (m_broken.size() > maxBroken) {
-    beginRemoveRows({}, 0, 0);
-    m_broken.erase(m_broken.begin());
-    endRemoveRows();
-  }
+  dropOldest();
   return isNews;
+}
+
+/// Of the source that is shown, if it has too many.
+void RuleWatch::dropOldest() {
+  if (m_broken.size() <= maxBroken) return;
+  const auto own = std::ranges::count(m_broken, quint64{0}, &BrokenRule::session);
+  if (static_cast<std::size_t>(own) <= maxBroken) return;
+  const auto oldest = std::ranges::find(m_broken, quint64{0}, &BrokenRule::session);
+  const int row = static_cast<int>(oldest - m_broken.begin());
+  beginRemoveRows({}, row, row);
+  m_broken.erase(oldest);
+  endRemoveRows();
+  m_cut.insert(0);
 }
 
 /// A rule that is broken for a while is one event, at its beginning.
@@ -257,12 +408,31 @@ link::MatchEvent RuleWatch::eventOf(const BrokenRule& one) const {
 
 void RuleWatch::listEvents() {
   std::vector<link::MatchEvent> events;
-  for (const BrokenRule& one : m_broken) events.push_back(eventOf(one));
+  for (const BrokenRule& one : m_broken) {
+    if (one.session == 0) events.push_back(eventOf(one));
+  }
   m_shown->events()->replace(link::MatchEventKind::RuleBroken, std::move(events));
 }
 
-QString RuleWatch::sourceName() const {
+QString RuleWatch::sourceNameOf(const BrokenRule& one) const {
+  if (const ComparedSession* session = m_compared->find(one.session)) return session->path();
   return isRecording() ? m_replay->path() : QString::fromUtf8(m_shown->kind().name);
+}
+
+bool RuleWatch::contains(const BrokenRule& one, const QString& word) const {
+  const auto has = [&word](const QString& text) {
+    return text.contains(word, Qt::CaseInsensitive);
+  };
+  return has(m_ruleTexts[one.moment.question]) || has(fromUtf8(one.moment.robot)) ||
+         has(sessionText(one)) || (one.goesOn && has(QStringLiteral("goes on")));
+}
+
+/// Empty while there is only one.
+QString RuleWatch::sessionText(const BrokenRule& one) const {
+  if (!isComparing()) return {};
+  if (const ComparedSession* session = m_compared->find(one.session)) return session->markedName();
+  return isRecording() ? QFileInfo(m_replay->path()).completeBaseName()
+                       : QString::fromUtf8(m_shown->kind().name);
 }
 
 QString RuleWatch::sentenceOf(const BrokenRule& one) const {
@@ -285,6 +455,10 @@ QVariant RuleWatch::data(const QModelIndex& index, int role) const {
   if (role == Qt::ForegroundRole && index.column() == Severity) {
     return severityColor(rule.severity);
   }
+  if (role == Qt::DecorationRole && index.column() == Session) {
+    const ComparedSession* session = m_compared->find(one.session);
+    return session != nullptr ? QVariant(sessionColor(session->number())) : QVariant();
+  }
   if (role == Qt::ToolTipRole) return fromUtf8(rule.question.condition);
   if (role != Qt::DisplayRole && role != sortRole) return {};
   const bool isShown = role == Qt::DisplayRole;
@@ -295,13 +469,14 @@ QVariant RuleWatch::data(const QModelIndex& index, int role) const {
       if (!isShown) return static_cast<int>(rule.severity);
       return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
     }
+    case Session:
+      return sessionText(one);
     case Name:
       return fromUtf8(rule.name);
     case Robot:
       return fromUtf8(moment.robot);
     case From:
-      return isShown ? QVariant(momentText(moment.range.begin, 2, m_shown->clock()))
-                     : QVariant(moment.range.begin);
+      return isShown ? QVariant(momentText(one.from(), 2, m_shown->clock())) : QVariant(one.from());
     case Duration:
       if (!isShown) return duration;
       return QStringLiteral("%1 s%2")
@@ -319,8 +494,8 @@ QVariant RuleWatch::data(const QModelIndex& index, int role) const {
 
 QVariant RuleWatch::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal || role != Qt::DisplayRole) return {};
-  static const char* const names[columns] = {"Severity", "Rule",  "Robot", "Time",
-                                             "Duration", "Worst", "What"};
+  static const char* const names[columns] = {"Severity", "Session",  "Rule",  "Robot",
+                                             "Time",     "Duration", "Worst", "What"};
   return QString::fromUtf8(names[section]);
 }
 

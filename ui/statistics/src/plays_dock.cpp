@@ -22,7 +22,6 @@
 #include <robotlink/report/session_tally.h>
 #include <ui/base/action_reason.h>
 #include <ui/base/robot_text.h>
-#include <ui/base/session_mark.h>
 #include <ui/base/table_style.h>
 #include <ui/base/ui_queue.h>
 #include <ui/base/workers.h>
@@ -356,9 +355,8 @@ class PlaysDock : public QWidget {
       const auto found = m_ofCompared.find(session->id());
       const Counted none;
       const Counted& counted = found != m_ofCompared.end() ? found->second : none;
-      all.push_back({session->id(), session->number(),
-                     sessionMark(session->number()) + QLatin1Char(' ') + session->name(),
-                     session->offset(), counted.plays, counted.words});
+      all.push_back({session->id(), session->number(), session->markedName(), session->offset(),
+                     counted.plays, counted.words});
     }
     m_model->show(std::move(all), m_parts.shown->clock());
     fillSessions();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "plays_model.h"
 
+#include <algorithm>
+
 #include <ui/base/robot_text.h>
 #include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
@@ -12,10 +14,12 @@ PlayWords wordsOf(const std::vector<link::PlayEvent>& plays) {
   PlayWords words;
   words.reserve(plays.size());
   for (const link::PlayEvent& play : plays) {
-    words.push_back(
-        {capitalised(labelOf(play.kind)),
-         play.name.empty() ? capitalised(info(play.team).name) : QString::fromStdString(play.name),
-         QString::fromStdString(sentenceOf(play))});
+    PlayText& text = words.emplace_back();
+    text.columns = {
+        capitalised(labelOf(play.kind)),
+        play.name.empty() ? capitalised(info(play.team).name) : QString::fromStdString(play.name),
+        QString::fromStdString(sentenceOf(play))};
+    for (const QString& one : text.columns) text.folded += one.toCaseFolded() + QLatin1Char('\n');
   }
   return words;
 }
@@ -53,16 +57,21 @@ int PlaysModel::columnCount(const QModelIndex& parent) const {
 }
 
 QString PlaysModel::textOf(int row, int column) const {
-  switch (column) {
-    case Time:
-      return momentText(timeOf(row), 1, m_clock);
-    case Session:
-      return sessionOf(row).name;
-    default: {
-      const auto play = m_rows[static_cast<std::size_t>(row)].second;
-      return sessionOf(row).words[play][static_cast<std::size_t>(column - Kind)];
-    }
-  }
+  return column == Time ? momentText(timeOf(row), 1, m_clock) : wordOf(row, column);
+}
+
+const PlayText& PlaysModel::playText(int row) const {
+  return sessionOf(row).words[m_rows[static_cast<std::size_t>(row)].second];
+}
+
+const QString& PlaysModel::wordOf(int row, int column) const {
+  return column == Session ? sessionOf(row).name
+                           : playText(row).columns[static_cast<std::size_t>(column - Kind)];
+}
+
+bool PlaysModel::contains(int row, const QString& folded) const {
+  return playText(row).folded.contains(folded) ||
+         sessionOf(row).name.contains(folded, Qt::CaseInsensitive);
 }
 
 QVariant PlaysModel::data(const QModelIndex& index, int role) const {
@@ -91,21 +100,24 @@ QVariant PlaysModel::headerData(int section, Qt::Orientation orientation, int ro
   return section >= 0 && section < columns ? names[section] : QVariant();
 }
 
-bool PlaysFilter::filterAcceptsRow(int row, const QModelIndex& parent) const {
+bool PlaysFilter::filterAcceptsRow(int row, const QModelIndex& /*parent*/) const {
   const auto* model = static_cast<const PlaysModel*>(sourceModel());
   const link::PlayEvent& play = model->at(row);
   if (m_session && model->sessionOf(row).id != *m_session) return false;
   if (m_kind && play.kind != *m_kind) return false;
   if (m_team && play.team != *m_team) return false;
   if (!m_robot.empty() && play.name != m_robot && play.otherName != m_robot) return false;
-  return TextFilter::filterAcceptsRow(row, parent);
+  return std::ranges::all_of(words(), [&](const QString& word) {
+    return model->contains(row, word) ||
+           (isNumeric(word) && model->textOf(row, PlaysModel::Time).contains(word));
+  });
 }
 
 // Without a QVariant for each comparison.
 bool PlaysFilter::lessThan(const QModelIndex& a, const QModelIndex& b) const {
   const auto& model = *static_cast<const PlaysModel*>(sourceModel());
   if (a.column() == PlaysModel::Time) return model.timeOf(a.row()) < model.timeOf(b.row());
-  return model.textOf(a.row(), a.column()) < model.textOf(b.row(), b.column());
+  return model.isBefore(a.row(), b.row(), a.column());
 }
 
 }  // namespace pitchboard::ui

@@ -5,7 +5,6 @@
 
 #include <QAbstractTableModel>
 #include <QDateTime>
-#include <QSignalBlocker>
 #include <array>
 #include <optional>
 #include <utility>
@@ -16,9 +15,14 @@
 
 namespace pitchboard::ui {
 
-/// Kind, robot and what happened, of each play.
-using PlayWords = std::vector<std::array<QString, 3>>;
-/// Makes them; any thread. Sorting and filtering ask for all of them.
+/// What the table says of a play. Sorting and filtering ask for all of them.
+struct PlayText {
+  std::array<QString, 3> columns;  ///< kind, robot and what happened
+  QString folded;                  ///< all of them, without upper and lower case, to be searched
+  bool operator==(const PlayText&) const = default;
+};
+using PlayWords = std::vector<PlayText>;
+/// Makes them; any thread.
 PlayWords wordsOf(const std::vector<link::PlayEvent>& plays);
 
 /// The plays of a session.
@@ -47,6 +51,13 @@ class PlaysModel : public QAbstractTableModel {
   /// The time in the source that is shown, s.
   double timeOf(int row) const { return at(row).time + sessionOf(row).offset; }
   QString textOf(int row, int column) const;
+  /// Returns whether this stands in some column but the time; `folded`: without upper and lower
+  /// case.
+  bool contains(int row, const QString& folded) const;
+  /// Of columns other than the time.
+  bool isBefore(int row, int other, int column) const {
+    return wordOf(row, column) < wordOf(other, column);
+  }
   const std::vector<SessionPlays>& sessions() const { return m_sessions; }
 
   int rowCount(const QModelIndex& parent = {}) const override;
@@ -55,6 +66,9 @@ class PlaysModel : public QAbstractTableModel {
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
  private:
+  const PlayText& playText(int row) const;
+  const QString& wordOf(int row, int column) const;
+
   std::vector<SessionPlays> m_sessions;
   std::vector<std::pair<std::size_t, std::size_t>> m_rows;  // session, and play of it
   std::optional<QDateTime> m_clock;
@@ -67,22 +81,19 @@ class PlaysFilter : public TextFilter {
   using TextFilter::TextFilter;
   /// Empty: all.
   void setKind(std::optional<link::PlayKind> kind) {
-    m_kind = kind;
-    filterAgain();
+    if (std::exchange(m_kind, kind) != kind) filterAgain();
   }
-  void setFilterText(const QString& text) {
-    atOnce([&] { TextFilter::setFilterText(text); });
-  }
+  void setFilterText(const QString& text) { TextFilter::setFilterText(text.toCaseFolded()); }
   /// Of this robot, also as the other one, or of this team; empty: all.
   void setWho(std::string robot, std::optional<TeamColor> team) {
+    const bool isOther = m_robot != robot || m_team != team;
     m_robot = std::move(robot);
     m_team = team;
-    filterAgain();
+    if (isOther) filterAgain();
   }
   /// Of the session with this id; empty: of all.
   void setSession(std::optional<quint64> id) {
-    m_session = id;
-    filterAgain();
+    if (std::exchange(m_session, id) != id) filterAgain();
   }
 
  protected:
@@ -90,20 +101,6 @@ class PlaysFilter : public TextFilter {
   bool lessThan(const QModelIndex& a, const QModelIndex& b) const override;
 
  private:
-  void filterAgain() {
-    atOnce([this] { invalidateFilter(); });
-  }
-  /// Views are told once: thousands of scattered rows that go one by one would block the window.
-  template <class Change>
-  void atOnce(const Change& change) {
-    beginResetModel();
-    {
-      const QSignalBlocker quiet(this);
-      change();
-    }
-    endResetModel();
-  }
-
   std::optional<link::PlayKind> m_kind;
   std::string m_robot;
   std::optional<TeamColor> m_team;

@@ -5,7 +5,6 @@
 #include <QMouseEvent>
 
 #include <telemetry/series/group_order.h>
-#include <ui/base/session_mark.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/compared_sessions.h>
 #include <ui/sources/robot_selection.h>
@@ -119,7 +118,7 @@ void RobotsButton::fill() {
   menu()->addSection(QStringLiteral("Sessions"));
   addSession(QStringLiteral("The one shown"), shownId);
   for (const ComparedSession* session : m_compared->all()) {
-    addSession(sessionMark(session->number()) + QLatin1Char(' ') + session->name(), session->id());
+    addSession(session->markedName(), session->id());
   }
 }
 

@@ -8,6 +8,18 @@
 #include <ui/sources/compared_sessions.h>
 
 namespace pitchboard::ui {
+namespace {
+
+QString whyNotByKickOff(const ComparedSession& session) {
+  const auto offset = session.offsetByKickOff();
+  if (!offset) {
+    return QStringLiteral("One of the sessions has no kick-off. Align them at another event");
+  }
+  return session.offset() == *offset ? QStringLiteral("The sessions are aligned by the kick-off")
+                                     : QString();
+}
+
+}  // namespace
 
 void fillComparedMenu(QMenu* menu, ComparedSessions* all, ComparedSession* session) {
   const auto add = [menu](const char* id, const QString& text, auto&&... to) {
@@ -20,6 +32,9 @@ void fillComparedMenu(QMenu* menu, ComparedSessions* all, ComparedSession* sessi
   enableUnless(*byTime, session->isAlignedByTime()
                             ? QStringLiteral("The sessions are aligned by time")
                             : QString());
+  QAction* byKickOff = add("comparedByKickOff", QStringLiteral("Align by the &kick-off"), session,
+                           &ComparedSession::alignByKickOff);
+  enableUnless(*byKickOff, whyNotByKickOff(*session));
   menu->addSeparator();
   QAction* field = add("comparedOnField", QStringLiteral("Show on the &field"));
   field->setCheckable(true);

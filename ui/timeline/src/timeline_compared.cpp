@@ -10,6 +10,7 @@
 #include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/event_list.h>
+#include <ui/sources/rule_watch.h>
 #include <ui/sources/shown_moment.h>
 
 #include "timeline_strip.h"
@@ -19,6 +20,7 @@ namespace {
 
 // px of the mock
 constexpr int fewRows = 2, rowHeight = 18, lowRowHeight = 13, extentHeight = 2;
+constexpr int brokenHeight = 4, brokenReach = 3;  // px above the extent; px more for a hand
 constexpr int maxVisibleRows = 6;
 constexpr int scrollBarWidth = 10;
 
@@ -76,6 +78,20 @@ QRect TimelineStrip::comparedChip(int row) const {
   return {place.right() - wide, place.top() + 1, wide, place.height() - 2};
 }
 
+QRect TimelineStrip::comparedRulesRect(int row) const {
+  const QRect place = comparedRect(row);
+  if (place.isEmpty() || m_rules == nullptr || m_rules->rules().empty()) return {};
+  const int high = scaled(this, brokenHeight);
+  return {place.left(), place.bottom() - scaled(this, extentHeight) - high, place.width(), high};
+}
+
+std::vector<const BrokenRule*> TimelineStrip::comparedBrokenAt(QPointF at) const {
+  const int row = rowAt(at);
+  const QRect place = comparedRulesRect(row);
+  if (place.isEmpty() || at.y() < place.top() - scaled(this, brokenReach)) return {};
+  return brokenAt(at.x(), m_compared[static_cast<std::size_t>(row)].session);
+}
+
 int TimelineStrip::rowAt(QPointF at) const {
   for (int row = 0; row < comparedRows(); ++row) {
     if (comparedRect(row).contains(at.toPoint())) return row;
@@ -113,6 +129,9 @@ QString TimelineStrip::comparedTip(QPointF at) {
     return QStringLiteral("%1\nClick to show it on the field or not. Drag the row to shift it")
         .arg(name);
   }
+  if (!comparedBrokenAt(at).empty()) {
+    return rulesTip(at.x(), session.session, {name.toHtmlEscaped()});
+  }
   const EventMark* mark = nearest(comparedMarks(row), at.x());
   if (mark == nullptr) return QStringLiteral("%1\nDrag to shift it").arg(name);
   const link::MatchEvent& event = session.events->at(mark->row);
@@ -142,6 +161,9 @@ void TimelineStrip::paintCompared(QPainter& painter) {
     }
     painter.save();
     painter.setClipRect(place.adjusted(-place.left(), 0, place.left(), 0));
+    if (const QRect broken = comparedRulesRect(row); !broken.isEmpty()) {
+      paintBroken(painter, broken, session.session);
+    }
     paintRow(painter, comparedMarks(row), session.events->events(), place.center().y(),
              place.bottom() - scaled(this, extentHeight), 0.75);
     painter.restore();

@@ -5,7 +5,6 @@
 #include <QMenu>
 #include <QToolButton>
 
-#include <ui/base/session_mark.h>
 #include <ui/base/theme.h>
 #include <ui/sources/compared_session.h>
 #include <ui/sources/compared_sessions.h>
@@ -66,7 +65,7 @@ class TimelineDock : public QWidget {
       std::vector<ComparedRow> rows;
       for (const ComparedSession* session : compared->all()) {
         rows.push_back({session->events(), session->offset(), session->caption(), session->number(),
-                        session->isOnField(), session->available()});
+                        session->isOnField(), session->available(), session->id()});
       }
       m_strip->setCompared(std::move(rows));
     });
@@ -107,9 +106,8 @@ class TimelineDock : public QWidget {
       for (ComparedSession* session : all) session->alignHere(time);
     }));
     for (ComparedSession* session : all) {
-      QAction* one =
-          menu->addAction(sessionMark(session->number()) + QLatin1Char(' ') + session->name(),
-                          session, [session, time] { session->alignHere(time); });
+      QAction* one = menu->addAction(session->markedName(), session,
+                                     [session, time] { session->alignHere(time); });
       one->setObjectName(QStringLiteral("alignHere.%1").arg(session->number()));
     }
   }

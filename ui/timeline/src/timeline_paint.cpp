@@ -63,17 +63,22 @@ void TimelineStrip::paintBand(QPainter& painter) const {
                theme().innerLine);
 }
 
-// The most severe rule of each pixel, however many there are.
 void TimelineStrip::paintRules(QPainter& painter) const {
   const QRect row = rulesRect();
   if (row.isEmpty()) return;
   painter.setRenderHint(QPainter::Antialiasing, false);
   painter.fillRect(QRect(row.left(), row.bottom(), row.width(), 1), theme().innerLine);
+  paintBroken(painter, row, 0);
+}
+
+// The most severe rule of each pixel, however many there are.
+void TimelineStrip::paintBroken(QPainter& painter, const QRect& row, quint64 session) const {
+  painter.setRenderHint(QPainter::Antialiasing, false);
   std::vector<int> severity(static_cast<std::size_t>(row.width()), -1);
   for (const BrokenRule& one : m_rules->broken()) {
-    const telemetry::TimeRange& range = one.moment.range;
-    const double from = m_axis.pixel(range.begin) - row.left();
-    const double until = m_axis.pixel(range.end) - row.left();
+    if (one.session != session) continue;
+    const double from = m_axis.pixel(one.from()) - row.left();
+    const double until = m_axis.pixel(one.until()) - row.left();
     if (until < 0.0 || from >= row.width()) continue;
     constexpr int narrowest = 2;
     const int first = std::max(0, static_cast<int>(std::floor(from)));

@@ -137,14 +137,13 @@ QRect TimelineStrip::rulesRect() const {
   return {band.left(), lanesTop(), band.width(), high - scaled(this, 2)};
 }
 
-std::vector<const BrokenRule*> TimelineStrip::brokenAt(double x) const {
+std::vector<const BrokenRule*> TimelineStrip::brokenAt(double x, quint64 session) const {
   std::vector<const BrokenRule*> out;
   if (m_rules == nullptr) return out;
   constexpr double reach = 2.5;  // px
   for (const BrokenRule& one : m_rules->broken()) {
-    const telemetry::TimeRange& range = one.moment.range;
-    if (m_axis.pixel(range.begin) - reach > x) break;  // in order of time
-    if (m_axis.pixel(range.end) + reach >= x) out.push_back(&one);
+    if (m_axis.pixel(one.from()) - reach > x) break;  // in order of time
+    if (one.session == session && m_axis.pixel(one.until()) + reach >= x) out.push_back(&one);
   }
   std::ranges::stable_sort(out, std::greater(), [this](const BrokenRule* one) {
     return m_rules->ruleOf(*one).severity;
@@ -152,15 +151,14 @@ std::vector<const BrokenRule*> TimelineStrip::brokenAt(double x) const {
   return out;
 }
 
-QString TimelineStrip::rulesTip(double x) const {
-  QStringList lines;
+QString TimelineStrip::rulesTip(double x, quint64 session, QStringList lines) const {
   constexpr std::size_t most = 8;
-  const auto all = brokenAt(x);
+  const auto all = brokenAt(x, session);
   for (std::size_t i = 0; i < std::min(all.size(), most); ++i) {
     const telemetry::FoundMoment& moment = all[i]->moment;
     QString line =
         QStringLiteral("%1  %2 (%3, %4 s")
-            .arg(momentText(moment.range.begin, 2, m_shown->clock()), m_rules->sentenceOf(*all[i]),
+            .arg(momentText(all[i]->from(), 2, m_shown->clock()), m_rules->sentenceOf(*all[i]),
                  QString::fromStdString(m_rules->ruleOf(*all[i]).name))
             .arg(moment.range.end - moment.range.begin, 0, 'f', 2);
     if (moment.value) line += QStringLiteral(", worst %1").arg(*moment.value, 0, 'g', 4);
@@ -169,7 +167,7 @@ QString TimelineStrip::rulesTip(double x) const {
   if (all.size() > most) {
     lines << QStringLiteral("and %1 more; zoom in to see them").arg(all.size() - most);
   }
-  if (lines.isEmpty()) lines << QStringLiteral("No rule is broken here");
+  if (all.empty()) lines << QStringLiteral("No rule is broken here");
   return QStringLiteral("<p style='white-space:pre'>") + lines.join(QStringLiteral("<br>")) +
          QStringLiteral("</p>");
 }
@@ -415,7 +413,7 @@ void TimelineStrip::mousePressEvent(QMouseEvent* event) {
     const auto broken = rulesRect().contains(m_pressedAt.toPoint())
                             ? brokenAt(m_pressedAt.x())
                             : std::vector<const BrokenRule*>();
-    m_shown->seek(!broken.empty()   ? broken.front()->moment.range.begin
+    m_shown->seek(!broken.empty()   ? broken.front()->from()
                   : mark != nullptr ? m_shown->events()->at(mark->row).time
                                     : m_grabTime);
   } else if (m_grab == Grab::Compared || m_grab == Grab::Chip) {
@@ -484,7 +482,10 @@ void TimelineStrip::mouseReleaseEvent(QMouseEvent* event) {
   m_grab = Grab::Nothing;
   if (!m_dragged && event->button() == Qt::LeftButton) {
     if (grabbed == Grab::Range) m_shown->setSelection({});
-    if (grabbed == Grab::Compared) m_shown->seek(m_grabTime);
+    if (grabbed == Grab::Compared) {
+      const auto broken = comparedBrokenAt(m_pressedAt);
+      m_shown->seek(broken.empty() ? m_grabTime : broken.front()->from());
+    }
     if (grabbed == Grab::Chip && m_grabRow < comparedRows()) emit comparedToggled(m_grabRow);
   }
   showCursorAt(event->position(), event->modifiers());

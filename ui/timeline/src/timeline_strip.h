@@ -39,6 +39,7 @@ struct ComparedRow {
   bool isOnField = true;  ///< else its mark is hollow
   /// s, its first and last moment, in its own time.
   std::optional<telemetry::TimeRange> range = {};
+  quint64 session = 0;  ///< its id
 };
 
 class TimelineStrip : public QWidget {
@@ -54,7 +55,8 @@ class TimelineStrip : public QWidget {
   /// What the match has left, a dashed branch above the band; null: none.
   void setFuture(AbandonedFuture* future);
 
-  /// Broken rules, in a row above the band while there are rules; null: none.
+  /// Broken rules, in a row above the band while there are rules, and in the rows of compared
+  /// sessions; null: none.
   void setRules(RuleWatch* rules);
 
   telemetry::TimeRange shown() const { return m_axis.shown; }
@@ -78,8 +80,12 @@ class TimelineStrip : public QWidget {
   QRect comparedChip(int row = 0) const;
   QRect branchRect() const;  ///< of the abandoned future; empty while there is none
   QRect rulesRect() const;   ///< empty while there are no rules
-  /// Broken rules at this pixel, the most severe first.
-  std::vector<const BrokenRule*> brokenAt(double x) const;
+  /// Where broken rules of a compared session stand, at the foot of its row; empty while there are
+  /// no rules.
+  QRect comparedRulesRect(int row = 0) const;
+  /// Broken rules at this pixel, the most severe first; of a compared session with this id, or of
+  /// what is shown (0).
+  std::vector<const BrokenRule*> brokenAt(double x, quint64 session = 0) const;
   /// What moves the plots' window, and changes it at its ends: below the band, never narrower than
   /// a hand needs.
   std::optional<QRectF> rangeHandle() const;
@@ -138,10 +144,12 @@ class TimelineStrip : public QWidget {
   QString comparedTip(QPointF at);
   int branchHeight() const;
   int lanesTop() const;  // of what stands on the band
-  QString rulesTip(double x) const;
+  QString rulesTip(double x, quint64 session = 0, QStringList lines = {}) const;
+  std::vector<const BrokenRule*> comparedBrokenAt(QPointF at) const;
   void paintBranch(QPainter& painter) const;
   void paintBand(QPainter& painter) const;
   void paintRules(QPainter& painter) const;
+  void paintBroken(QPainter& painter, const QRect& place, quint64 session) const;
   void paintWindow(QPainter& painter) const;
   void paintRange(QPainter& painter) const;
   void paintMarks(QPainter& painter);

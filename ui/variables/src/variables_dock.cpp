@@ -109,13 +109,15 @@ class VariablesDock : public QWidget {
     m_filterText->setObjectName(QStringLiteral("variablesFilter"));
     m_filterText->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
     m_filterText->setToolTip(
-        QStringLiteral("Show rows that contain all words in robot, process, name or unit"));
+        QStringLiteral("Show rows that contain all words in robot, process, name or unit. "
+                       "Enter leads to the first, and plots it"));
     m_filterText->setClearButtonEnabled(true);
     m_filterText->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_filterText, &QLineEdit::textChanged, this, [this](const QString& text) {
       m_filter->setFilterText(text);
       filterChanged();
     });
+    connect(m_filterText, &QLineEdit::returnPressed, m_view, &VariablesView::goToFirst);
     m_stars = makeButton("favouritesOnly", "starred-symbolic",
                          QStringLiteral("Show favourites only. Press * on a variable to add it."));
     m_stars->setCheckable(true);

@@ -248,6 +248,17 @@ void VariablesView::editCurrent() {
   editValue(currentIndex());
 }
 
+void VariablesView::goToFirst() {
+  QModelIndex at = m_filter->index(0, 0);
+  while (at.isValid() && m_model->columnOf(m_filter->mapToSource(at)) == nullptr) {
+    if (m_filter->hasChildren(at)) expand(at);
+    at = indexBelow(at);
+  }
+  if (!at.isValid()) return;
+  setCurrentIndex(at);
+  setFocus(Qt::ShortcutFocusReason);
+}
+
 void VariablesView::editValue(const QModelIndex& index) {
   const QModelIndex value = index.siblingAtColumn(VariablesModel::Value);
   if (value.flags().testFlag(Qt::ItemIsEditable)) {

@@ -34,6 +34,8 @@ class VariablesView : public QTreeView {
   void copySelection() const;
   void requestFavourites() { emit favouriteRequested(selectedInModel()); }
   void editCurrent();
+  /// Selects the first variable that is listed, and takes the focus; nothing if there is none.
+  void goToFirst();
   void openAll();
   void closeAll();
   bool isEditing() const { return state() == EditingState; }

@@ -48,7 +48,7 @@ AlignBar::AlignBar(ShownMoment* shown, QWidget* parent)
   connect(m_same, &QPushButton::clicked, this, [this] { declare(false); });
   connect(m_second, &QPushButton::clicked, this, [this] { declare(true); });
   connect(m_clock, &QPushButton::clicked, this, [this] {
-    if (const auto begin = beginByClock(*m_camera, *m_shown)) set({{*begin, 0.0}});
+    if (const auto begin = beginByClock(*m_camera, *m_shown)) emit aligned({{*begin, 0.0}});
   });
   connect(m_begin, &QDoubleSpinBox::valueChanged, this, &AlignBar::shiftTo);
   connect(shown, &ShownMoment::moved, this, &AlignBar::showState);
@@ -151,26 +151,14 @@ void AlignBar::declare(bool isSecond) {
   if (m_camera == nullptr || m_camera->times().empty()) return;
   const auto& anchors = m_camera->kept().anchors;
   if (isSecond && !anchors.empty()) {
-    set({anchors.front(), here()});
+    emit aligned({anchors.front(), here()});
   } else {
-    set({here()});
+    emit aligned({here()});
   }
 }
 
-/// Shifts the video without changing its drift.
 void AlignBar::shiftTo(double begin) {
-  if (m_camera == nullptr) return;
-  auto anchors = m_camera->kept().anchors;
-  if (anchors.empty()) anchors.push_back({});
-  const double by = begin - m_camera->alignment().offset;
-  for (telemetry::VideoAnchor& anchor : anchors) anchor.session += by;
-  set(std::move(anchors));
-}
-
-void AlignBar::set(std::vector<telemetry::VideoAnchor> anchors) {
-  if (const auto done = m_camera->setAnchors(std::move(anchors)); !done) {
-    emit refused(QString::fromStdString(done.error().message));
-  }
+  if (m_camera != nullptr) emit shifted(m_camera->anchorsFrom(begin));
 }
 
 void AlignBar::showState() {

@@ -35,8 +35,10 @@ class AlignBar : public QWidget {
 
  signals:
   void indexChanged();
-  /// The moments contradict each other, as a sentence.
-  void refused(const QString& sentence);
+  /// The camera is to be aligned by these moments, which may contradict each other.
+  void aligned(const std::vector<pitchboard::telemetry::VideoAnchor>& anchors);
+  /// The same, a step of several.
+  void shifted(const std::vector<pitchboard::telemetry::VideoAnchor>& anchors);
   void done();
 
  private:
@@ -44,7 +46,6 @@ class AlignBar : public QWidget {
   void showState();
   void declare(bool isSecond);
   void shiftTo(double begin);
-  void set(std::vector<telemetry::VideoAnchor> anchors);
   telemetry::VideoAnchor here() const;
 
   ShownMoment* m_shown;

@@ -65,6 +65,14 @@ Result<void> VideoCamera::setAnchors(std::vector<telemetry::VideoAnchor> anchors
   return {};
 }
 
+std::vector<telemetry::VideoAnchor> VideoCamera::anchorsFrom(double begin) const {
+  auto anchors = m_kept.anchors;
+  if (anchors.empty()) anchors.emplace_back();
+  const double by = begin - m_alignment.offset;
+  for (telemetry::VideoAnchor& anchor : anchors) anchor.session += by;
+  return anchors;
+}
+
 void VideoCamera::setLandmarks(std::vector<telemetry::VideoLandmark> landmarks) {
   m_kept.landmarks = std::move(landmarks);
   emit landmarksChanged();

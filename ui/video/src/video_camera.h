@@ -12,6 +12,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <telemetry/session/session_videos.h>
 #include <telemetry/video/video_file.h>
@@ -41,6 +42,9 @@ class VideoCamera : public QObject {
   const telemetry::VideoAlignment& alignment() const { return m_alignment; }
   /// Fails as alignmentOf() does, and then nothing has changed. alignmentChanged() follows.
   Result<void> setAnchors(std::vector<telemetry::VideoAnchor> anchors);
+  /// Returns the moments of kept(), all moved so that the video begins at this second of the
+  /// session; its drift stays.
+  std::vector<telemetry::VideoAnchor> anchorsFrom(double begin) const;
   void setLandmarks(std::vector<telemetry::VideoLandmark> landmarks);
 
   /// Asks for the picture that is shown at this time, for a view of this size (pixels).

@@ -6,8 +6,10 @@
 #include <QFile>
 #include <QLabel>
 #include <QMimeData>
+#include <QPointer>
 #include <QTimer>
 #include <QToolButton>
+#include <QUndoStack>
 #include <QUrl>
 #include <QVBoxLayout>
 #include <filesystem>
@@ -27,6 +29,7 @@
 #include "align_bar.h"
 #include "camera_grid.h"
 #include "points_bar.h"
+#include "video_tracks.h"
 #include "video_view.h"
 
 namespace pitchboard::ui {
@@ -44,6 +47,37 @@ struct VideoHome {
   const FrameSource* source = nullptr;
   std::string session;  ///< empty: memory
   bool operator==(const VideoHome&) const = default;
+};
+
+/// A video was aligned otherwise. Nothing can be undone of one that was removed.
+class AlignVideo : public QUndoCommand {
+ public:
+  using Anchors = std::vector<telemetry::VideoAnchor>;
+  enum class Step { Single, OneOfMany };
+
+  AlignVideo(const QString& text, VideoCamera* camera, Anchors before, Anchors after, Step step)
+      : QUndoCommand(text),
+        m_camera(camera),
+        m_before(std::move(before)),
+        m_after(std::move(after)),
+        m_step(step) {}
+  void redo() override { set(m_after); }
+  void undo() override { set(m_before); }
+  int id() const override { return m_step == Step::OneOfMany ? 1 : -1; }
+  bool mergeWith(const QUndoCommand* next) override {
+    const auto* other = static_cast<const AlignVideo*>(next);
+    if (other->m_camera != m_camera) return false;
+    m_after = other->m_after;
+    return true;
+  }
+
+ private:
+  void set(const Anchors& anchors) {
+    if (m_camera.isNull() || !m_camera->setAnchors(anchors)) setObsolete(true);
+  }
+  QPointer<VideoCamera> m_camera;
+  Anchors m_before, m_after;
+  Step m_step;
 };
 
 QStringList draggedVideos(const QMimeData* data) {
@@ -89,6 +123,7 @@ class VideoDock : public QWidget {
         m_parts(parts),
         m_message(new InPlaceMessage(this)),
         m_grid(new CameraGrid(this)),
+        m_tracks(new VideoTracks(parts.shown, this)),
         m_empty(makeEmptyLabel(this, QStringLiteral("emptyVideo"))),
         m_alignBar(new AlignBar(parts.shown, this)),
         m_pointsBar(new PointsBar(this)) {
@@ -99,6 +134,7 @@ class VideoDock : public QWidget {
     column->addLayout(makeTools());
     column->addWidget(m_message);
     column->addWidget(m_grid, 1);
+    column->addWidget(m_tracks);
     column->addWidget(m_empty, 1);
     column->addWidget(m_alignBar);
     column->addWidget(m_pointsBar);
@@ -113,6 +149,8 @@ class VideoDock : public QWidget {
   }
   ~VideoDock() override { saveNow(); }
 
+  QUndoStack* undoStack() { return &m_undo; }
+  bool cancel() { return m_tracks->cancel(); }
   std::vector<FilmCamera> film() const {
     std::vector<FilmCamera> all;
     for (const Camera& camera : m_cameras) {
@@ -208,9 +246,19 @@ class VideoDock : public QWidget {
     connect(shown, &ShownMoment::moved, this, &VideoDock::refresh);
     connect(shown, &FrameSource::frameReceived, this, &VideoDock::refresh);
     connect(m_alignBar, &AlignBar::indexChanged, this, &VideoDock::refresh);
-    connect(m_alignBar, &AlignBar::refused, this, [this](const QString& sentence) {
-      m_message->showMessage(InPlaceMessage::Tone::Error, sentence);
+    connect(m_alignBar, &AlignBar::aligned, this, [this](const AlignVideo::Anchors& anchors) {
+      alignCurrent(anchors, AlignVideo::Step::Single);
     });
+    connect(m_alignBar, &AlignBar::shifted, this, [this](const AlignVideo::Anchors& anchors) {
+      alignCurrent(anchors, AlignVideo::Step::OneOfMany);
+    });
+    connect(m_tracks, &VideoTracks::pressed, this, &VideoDock::chooseCamera);
+    connect(m_tracks, &VideoTracks::dragged, this,
+            [this](VideoCamera* camera, const AlignVideo::Anchors& before) {
+              m_message->clear();  // that it is not aligned yet
+              m_undo.push(new AlignVideo(QStringLiteral("Move video"), camera, before,
+                                         camera->kept().anchors, AlignVideo::Step::Single));
+            });
     connect(m_alignBar, &AlignBar::done, this, [this] { m_align->setChecked(false); });
     connect(m_pointsBar, &PointsBar::done, this, [this] { m_points->setChecked(false); });
     connect(m_pointsBar, &PointsBar::nextChanged, this, &VideoDock::showPlacing);
@@ -244,6 +292,7 @@ class VideoDock : public QWidget {
     m_align->setChecked(false);
     m_points->setChecked(false);
     m_message->clear();
+    m_undo.clear();
     while (!m_cameras.empty()) removeCamera(m_cameras.size() - 1);
     m_home = home();
     std::vector<telemetry::SessionVideo> kept = m_inMemory[m_home.source];
@@ -330,11 +379,7 @@ class VideoDock : public QWidget {
     });
     connect(video, &VideoCamera::landmarksChanged, this, &VideoDock::saveSoon);
     connect(camera.view, &VideoView::resized, this, &VideoDock::refresh);
-    connect(camera.view, &VideoView::pressed, this, [this, view = camera.view] {
-      for (std::size_t i = 0; i < m_cameras.size(); ++i) {
-        if (m_cameras[i].view == view) choose(i);
-      }
-    });
+    connect(camera.view, &VideoView::pressed, this, [this, video] { chooseCamera(video); });
     connect(camera.view, &VideoView::placed, m_pointsBar, &PointsBar::place);
     if (m_parts.notes != nullptr) addNotes(camera.view);
     m_cameras.push_back(std::move(camera));
@@ -393,6 +438,7 @@ class VideoDock : public QWidget {
     // They show and use the camera.
     m_alignBar->start(nullptr);
     m_pointsBar->start(nullptr, {});
+    m_tracks->setCameras({});
     m_grid->remove(m_cameras[index].view);
     delete m_cameras[index].view;
     m_cameras.erase(m_cameras.begin() + static_cast<std::ptrdiff_t>(index));
@@ -422,6 +468,23 @@ class VideoDock : public QWidget {
     showBars();
   }
 
+  void chooseCamera(const VideoCamera* camera) {
+    for (std::size_t i = 0; i < m_cameras.size(); ++i) {
+      if (m_cameras[i].video.get() == camera) choose(i);
+    }
+  }
+
+  void alignCurrent(const AlignVideo::Anchors& anchors, AlignVideo::Step step) {
+    VideoCamera* camera = current()->video.get();
+    if (const auto alignment = telemetry::alignmentOf(anchors); !alignment) {
+      m_message->showMessage(InPlaceMessage::Tone::Error,
+                             QString::fromStdString(alignment.error().message));
+      return;
+    }
+    m_undo.push(new AlignVideo(QStringLiteral("Align video"), camera, camera->kept().anchors,
+                               anchors, step));
+  }
+
   /// Buttons and bars are those of the current camera.
   void showBars() {
     Camera* camera = current();
@@ -430,6 +493,11 @@ class VideoDock : public QWidget {
     for (QToolButton* one : {m_align, m_lines, m_points}) one->setEnabled(isOpen);
     m_remove->setEnabled(camera != nullptr);
     m_grid->setVisible(camera != nullptr);
+    std::vector<VideoCamera*> open;
+    for (const Camera& one : m_cameras) {
+      if (one.video->info() != nullptr) open.push_back(one.video.get());
+    }
+    m_tracks->setCameras(std::move(open));
     m_empty->setVisible(camera == nullptr);
     const bool aligns = isOpen && m_align->isChecked(), places = isOpen && m_points->isChecked();
     m_alignBar->start(aligns ? camera->video.get() : nullptr);
@@ -483,6 +551,7 @@ class VideoDock : public QWidget {
   VideoDockParts m_parts;
   InPlaceMessage* m_message;
   CameraGrid* m_grid;
+  VideoTracks* m_tracks;
   QLabel* m_empty;
   AlignBar* m_alignBar;
   PointsBar* m_pointsBar;
@@ -493,6 +562,7 @@ class VideoDock : public QWidget {
   VideoHome m_home;
   bool m_isChanged = false;
   QTimer m_save;
+  QUndoStack m_undo;  // of alignments
   std::map<const FrameSource*, std::vector<telemetry::SessionVideo>> m_inMemory;
 };
 
@@ -500,6 +570,14 @@ class VideoDock : public QWidget {
 
 QWidget* makeVideoDock(const VideoDockParts& parts, QWidget* parent) {
   return new VideoDock(parts, parent);
+}
+
+QUndoStack* videoUndoStack(QWidget* videoDock) {
+  return static_cast<VideoDock*>(videoDock)->undoStack();
+}
+
+bool cancelVideoDrag(QWidget* videoDock) {
+  return static_cast<VideoDock*>(videoDock)->cancel();
 }
 
 std::vector<FilmCamera> filmCameras(const QWidget* videoDock) {

@@ -20,9 +20,9 @@ VideoView::VideoView(VideoCamera* camera, QWidget* parent) : QWidget(parent), m_
   setAccessibleName(QStringLiteral("Video ") + camera->name());
   setMinimumSize(scaled(this, 120), scaled(this, 70));
   setMouseTracking(true);
-  for (const auto signal :
-       {&VideoCamera::opened, &VideoCamera::failed, &VideoCamera::openingChanged,
-        &VideoCamera::pictureChanged, &VideoCamera::landmarksChanged}) {
+  for (const auto signal : {&VideoCamera::opened, &VideoCamera::failed,
+                            &VideoCamera::openingChanged, &VideoCamera::pictureChanged,
+                            &VideoCamera::alignmentChanged, &VideoCamera::landmarksChanged}) {
     connect(camera, signal, this, qOverload<>(&QWidget::update));
   }
 }

@@ -103,6 +103,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   m_noteBoard = new NoteBoard(m_shown, controller, m_replay, m_recording, this);
   m_undo->add(controller->edits()->undoStack(),
               [this] { return m_shown->kind().canBeEdited && !m_shown->isLookingBack(); });
+  connect(controller->edits(), &MatchEdits::sent, m_undo, &UndoHistory::expect);
+  connect(controller->edits(), &MatchEdits::answered, m_undo, &UndoHistory::answer);
   m_undo->add(m_noteBoard->undoStack(), [] { return true; });
   setWindowTitle(QStringLiteral("Pitchboard"));
   // A title drags its own panel: of a group of tabs Qt neither asks where it may be dropped nor
@@ -125,7 +127,7 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   setCentralWidget(centre);
   m_fieldOnly = new FieldOnly(this, m_shown);
   m_alarms = new Alarms(m_shown, centre, settings, this);
-  m_rules = new RuleWatch(m_shown, m_replay, settings, this);
+  m_rules = new RuleWatch(m_shown, m_replay, m_compared, settings, this);
   connect(m_rules, &RuleWatch::broke, m_alarms, &Alarms::raiseForRule);
 
   m_sessions = new SessionFiles(m_replay, controller, m_shown, m_notices, this);
@@ -159,6 +161,8 @@ MainWindow::MainWindow(MatchController* controller, QSettings* settings, QWidget
   new TabCorner(qobject_cast<QDockWidget*>(m_plotsDock->parentWidget()), m_plotsDock->pageTabs(),
                 m_docks);
   m_undo->add(m_plotsDock->undoStack(), [] { return true; });
+  const auto* video = findChild<QDockWidget*>(QStringLiteral("video"));
+  m_undo->add(videoUndoStack(video->widget()), [] { return true; });
   connect(m_plotsDock, &PlotsDock::noted, m_status, &StudioStatusBar::note);
   makeMenus();
   makeKeys();
@@ -571,6 +575,10 @@ void MainWindow::connectNotices() {
         {{QStringLiteral("Try again"),
           [this] { m_controller->open(m_controller->scenario(), m_controller->isPaused()); }},
          {QStringLiteral("Choose a scenario"), [this] { m_bar->scenarios()->showPopup(); }}});
+  });
+  // A file that could not be opened is old news, unless there is no match.
+  connect(m_shown, &ShownMoment::sourceChosen, m_notices, [this] {
+    if (m_controller->isOpen()) m_notices->settle(scenario);
   });
   connect(m_controller, &MatchController::scenarioChanged, m_notices, [this] {
     for (const QString& topic : {match, refused, finished, continued, speedTopic}) {

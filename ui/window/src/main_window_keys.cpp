@@ -2,12 +2,14 @@
 // What keys do that no menu offers, and the map that gives all actions their keys.
 #include <ui/window/main_window.h>
 
+#include <QDockWidget>
 #include <QKeyEvent>
 
 #include <ui/field/field_view.h>
 #include <ui/sources/note_board.h>
 #include <ui/sources/robot_selection.h>
 #include <ui/sources/shown_moment.h>
+#include <ui/video/video_dock.h>
 
 #include "field_only.h"
 #include "help_overlay.h"
@@ -51,7 +53,8 @@ void MainWindow::makeKeys() {
 
 // Escape: the first of these that there is.
 void MainWindow::cancelStepByStep() {
-  if (m_noteBoard->cancel() || m_field->cancel()) return;
+  const auto* video = findChild<QDockWidget*>(QStringLiteral("video"));
+  if (m_noteBoard->cancel() || cancelVideoDrag(video->widget()) || m_field->cancel()) return;
   if (m_shown->selection())
     m_shown->setSelection({});
   else if (m_shown->isLookingBack())

@@ -4,11 +4,19 @@
 #include <QAction>
 #include <QMenu>
 
+#include <ui/base/file_dialog.h>
 #include <ui/live/foxglove_dialog.h>
 #include <ui/mapping/mapping_dialog.h>
 #include <ui/session/session_files.h>
 
 namespace pitchboard::ui {
+
+namespace {
+
+const QString recordingFilter =
+    QStringLiteral("Recordings (*.mcap *.db3 *.csv *.tsv *.txt *.yaml *.yml);;All files (*)");
+
+}  // namespace
 
 void mapRecordings(SessionFiles* sessions, const QStringList& recordings, QWidget* window) {
   auto* dialog = new MappingDialog(mappingSource(recordings), window);
@@ -21,18 +29,19 @@ void mapRecordings(SessionFiles* sessions, const QStringList& recordings, QWidge
 
 QAction* addMappingAction(QMenu* menu, SessionFiles* sessions, QWidget* window) {
   QAction* action =
-      menu->addAction(QStringLiteral("&Map topics of a recording…"), sessions, [sessions, window] {
+      menu->addAction(QStringLiteral("&Map topics of recordings…"), sessions, [sessions, window] {
         QStringList recordings = sessions->importedRecordings();
         if (recordings.isEmpty()) {
-          const QString path = sessions->askForFile(QStringLiteral("Map topics of a recording"));
-          if (path.isEmpty()) return;
-          recordings = {path};
+          recordings =
+              askToOpenSeveral(window, QStringLiteral("Map topics of recordings"), recordingFilter);
+          if (recordings.isEmpty()) return;
         }
         mapRecordings(sessions, recordings, window);
       });
   action->setObjectName(QStringLiteral("mapTopics"));
   action->setToolTip(QStringLiteral(
-      "Says which topics of another program's recording are robots, ball, log and referee"));
+      "Says which topics of other programs' recordings are robots, ball, log and referee, and puts "
+      "the recordings of a match on one clock"));
   QObject::connect(sessions, &SessionFiles::mappingWanted, window,
                    [sessions, window](const QStringList& recordings) {
                      mapRecordings(sessions, recordings, window);

@@ -12,6 +12,8 @@
 
 #include <base/angles.h>
 
+#include "touched_noise.h"
+
 namespace pitchboard::link {
 namespace {
 
@@ -29,9 +31,6 @@ constexpr double minBlocks = 12.0;
 // Among others a robot is also touched too weakly to be noticed: by so much larger the deviations
 // were than the likelihood says (calibration_proof with `match`).
 constexpr double weakTouches = 1.25;
-// They only add to the noise of the gait: towards less noise its intervals had to be so many times
-// as long again.
-constexpr double touchedNoise = 1.6;
 constexpr double likelyNoise = 2.0;  // times the prior's median, of a gait that may be pushed
 
 using Vector = Eigen::VectorXd;
@@ -606,15 +605,21 @@ MotionFit fitMotion(std::span<MotionFilter> filters, std::span<const Calibration
   for (std::size_t i = 0; i < fit.marginals.size(); ++i) {
     const double factor = excess[static_cast<Eigen::Index>(i)];
     GridPosterior& one = fit.marginals[i];
-    const bool isGait = i == motionNoiseForward || i == motionNoiseSideways;
-    const double down = isGait && othersTookPart(filters) ? touchedNoise : 1.0;
-    one.low = one.median - down * factor * (one.median - one.low);
+    one.low = one.median - factor * (one.median - one.low);
     one.high = one.median + factor * (one.high - one.median);
     fit.information[i] = 1.0 - factor * factor * (1.0 - fit.information[i]);
   }
   fit.covariance = excess.asDiagonal() * fit.covariance * excess.asDiagonal();
   for (std::size_t i = 0; i < fit.logs.size(); ++i) fit.logs[i] = fit.marginals[i].median;
   fit.model = scoring.modelAt(fit.logs);
+  // The model goes on with all noise that this recording has; what is reported is the robot's own.
+  for (const std::size_t gait : {motionNoiseForward, motionNoiseSideways}) {
+    if (!othersTookPart(filters)) break;
+    const auto own =
+        withoutTouches(fit.marginals[gait], scoring.prior()[gait], motionParameters[gait].prior);
+    fit.marginals[gait] = own;
+    fit.information[gait] = 1.0 - own.share * own.share;
+  }
   fit.model.noise.visionDelay = fit.delayKnown ? fit.delayPosterior.median : base.noise.visionDelay;
   for (std::size_t f = 0; f < filters.size(); ++f) {
     MotionFit::OfLog one;

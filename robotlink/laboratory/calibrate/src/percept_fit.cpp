@@ -394,6 +394,13 @@ void fitView(std::span<const MotionFilter> filters, std::span<const CalibrationL
   // As measured over recordings of robots whose range is known: the correlation between the errors
   // of two crossings (calibration_proof, seeds from 10001 on).
   constexpr double commonDistance = 0.4;
+  const bool isPlayed = std::ranges::any_of(filters, [](const MotionFilter& one) {
+    return std::ranges::find(one.ballMoves(), true) != one.ballMoves().end();
+  });
+  if (isPlayed) {
+    out.kept["vision_range"] = "others moved the ball, and may have hidden it";
+    return;
+  }
   fit("vision_range", crossings.distances, commonDistance, out.base.visionRange, 1.0,
       "the ball was never seen just within the range and lost just beyond it");
 }

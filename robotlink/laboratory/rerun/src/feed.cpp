@@ -43,7 +43,7 @@ Feed::Feed(const VariableCatalog& catalog, std::span<const std::string> processe
            std::span<const std::string> patterns) {
   const VariableMeanings& meanings = VariableMeanings::published();
   for (const Variable& variable : catalog.variables()) {
-    if (announcesCycles(variable)) continue;  // no value of the robot: see RecordedCycles
+    if (isAnnouncement(catalog, variable)) continue;  // no value of the robot: see RecordedCycles
     const bool isInt = variable.type == VariableType::Int;
     Word one;
     one.variable = variable;
@@ -183,10 +183,13 @@ bool Feed::isCleared(const Word& one) const {
   return one.clearedByOther && !known && m_now[static_cast<std::size_t>(one.word)] == one.cleared;
 }
 
-void Feed::after(Blackboard& board) const {
+void Feed::after(Blackboard& board, std::span<const std::string> running) const {
   if (!m_isFresh) return;
   for (const Word& one : m_words) {
-    if (one.column >= 0 && (!one.isOwn || isOthers(one) || isCleared(one))) write(board, one);
+    const bool isKept =
+        one.isOwn && (isOneOf(running, one.writers.writer) || isOneOf(running, one.writers.alsoBy));
+    const bool isFed = !one.isOwn || isOthers(one) || isCleared(one);
+    if (one.column >= 0 && isFed && !isKept) write(board, one);
   }
 }
 

@@ -54,8 +54,9 @@ class Feed {
   void writeAll(Blackboard& board) const;
   /// Writes what others wrote before this turn; nothing if there is no row of this tick.
   void before(Blackboard& board, int turn) const;
-  /// Writes what others wrote in the rest of the tick.
-  void after(Blackboard& board) const;
+  /// Writes what others wrote in the rest of the tick. Outputs of processes that are within a cycle
+  /// (`running`) stay: the row is from its beginning, and they are already written.
+  void after(Blackboard& board, std::span<const std::string> running = {}) const;
   /// Writes a value that a scenario planned; only if it is one of the outputs.
   void plan(Blackboard& board, std::string_view variable, double value) const;
 

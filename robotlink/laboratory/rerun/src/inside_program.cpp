@@ -47,6 +47,9 @@ class InsideProgram final : public RerunProgram {
     m_process->step(m_board, Clock{seconds});
     return {};
   }
+  Result<void> beginAnew(const RerunRobot& robot, std::uint64_t tick) override {
+    return make(robot, tick);
+  }
   Result<void> changeSides(const RerunRobot& robot, std::uint64_t tick) override {
     return make(robot, tick);
   }

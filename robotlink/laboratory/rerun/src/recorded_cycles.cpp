@@ -2,7 +2,6 @@
 #include "recorded_cycles.h"
 
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <utility>
 
@@ -30,16 +29,18 @@ bool isUsed(const telemetry::SessionReader& session, const RecordedRobot& record
 std::optional<RecordedCycles> RecordedCycles::find(const telemetry::SessionReader& session,
                                                    const RecordedRobot& recorded,
                                                    const RerunChoice& choice) {
-  std::string own = choice.process + std::string(cycleSuffix);
-  for (char& letter : own) letter = static_cast<char>(std::toupper(letter));
-  std::vector<std::string> names{own};
+  std::vector<std::string> names{cycleVariable(choice.process, cycleSuffix)};
+  const telemetry::GroupInfo& group = session.groups()[recorded.group].info;
+  const RowSlot clock = findSlot(group, {cycleVariable(choice.process, clockSuffix)});
   // One program of a robot cooperates with a match.
   if (!choice.isInside) {
     names.push_back(choice.cycle.empty() ? std::string(matchCycle) : choice.cycle);
   }
   for (const std::string& name : names) {
-    const RowSlot slot = findSlot(session.groups()[recorded.group].info, {name});
-    if (slot.present() && isUsed(session, recorded, slot)) return RecordedCycles(name, slot);
+    const RowSlot slot = findSlot(group, {name});
+    if (slot.present() && isUsed(session, recorded, slot)) {
+      return RecordedCycles(name, slot, name == names.front() ? clock : RowSlot{});
+    }
   }
   return {};
 }
@@ -50,9 +51,14 @@ bool RecordedCycles::take(const telemetry::RowView& row) {
   if (std::exchange(m_isFirst, false) || now == before) return false;
   const bool counts = m_variable != matchCycle && before != 0 && now != 0;
   const int step = std::abs(now) - std::abs(before);
+  m_beganAnew = counts && step < 0;
   if (counts && step > 1) m_missed += static_cast<std::uint64_t>(step - 1);
   // One that is over already began after the last row, unless that showed its beginning.
-  return now > 0 || (now < 0 && before < 0) || (now < 0 && counts && step > 0);
+  return now > 0 || (now < 0 && before < 0) || (now < 0 && counts && step != 0);
+}
+
+double RecordedCycles::secondsOf(const telemetry::RowView& row) const {
+  return m_clock.present() ? m_clock.readInt(row) / 1000.0 : row.time;
 }
 
 }  // namespace pitchboard::link

@@ -23,6 +23,13 @@ class RecordedCycles {
 
   /// Takes a row. Returns whether a cycle has begun since the last one.
   bool take(const telemetry::RowView& row);
+  /// Returns the time of that cycle, s: that of the process's own clock if it announced it, else
+  /// that of the row.
+  double secondsOf(const telemetry::RowView& row) const;
+  /// Returns whether that cycle is the first one of a process that was started again.
+  bool beganAnew() const { return m_beganAnew; }
+  /// Returns whether a cycle has begun in a row that was taken.
+  bool hasBegun() const { return m_last != 0; }
   /// Returns whether the newest row is from within a cycle, so that its outputs are not complete.
   bool isRunning() const { return m_last > 0; }
   /// Returns how many cycles began and ended between two rows.
@@ -30,13 +37,13 @@ class RecordedCycles {
   const std::string& variable() const { return m_variable; }
 
  private:
-  RecordedCycles(std::string variable, RowSlot slot)
-      : m_variable(std::move(variable)), m_slot(slot) {}
+  RecordedCycles(std::string variable, RowSlot slot, RowSlot clock)
+      : m_variable(std::move(variable)), m_slot(slot), m_clock(clock) {}
 
   std::string m_variable;
-  RowSlot m_slot;
+  RowSlot m_slot, m_clock;
   int m_last = 0;
-  bool m_isFirst = true;
+  bool m_isFirst = true, m_beganAnew = false;
   std::uint64_t m_missed = 0;
 };
 

@@ -44,6 +44,8 @@ class RerunProgram {
   virtual Result<void> cycle(std::uint64_t tick) = 0;
   /// A cycle of it, whether it is due or not, at this second of the recording.
   virtual Result<void> run(std::uint64_t tick, double seconds) = 0;
+  /// The recorded process was started again: it remembers nothing.
+  virtual Result<void> beginAnew(const RerunRobot&, std::uint64_t) { return {}; }
   /// Called when the robot has changed its direction of attack.
   virtual Result<void> changeSides(const RerunRobot& robot, std::uint64_t tick) = 0;
   /// Returns the largest speed (times real time; 0: unlimited) that it allows now.

@@ -271,12 +271,20 @@ Result<void> RerunRun::begin(const telemetry::RowView& row) {
   m_comparison.emplace(*m_feed, m_options, m_slack, m_begin);
   m_paceTick = m_measuredTick = m_tick;
   m_paceBegin = m_measured = std::chrono::steady_clock::now();
-  if (m_tick > 0 && std::ranges::any_of(m_chosen.choices, &RerunChoice::isInside)) {
+  if (std::ranges::any_of(m_chosen.choices, [this](const RerunChoice& choice) {
+        return choice.isInside && hadBegun(choice.process);
+      })) {
     note("The part begins at " + secondsToText(row.time) +
          ". What the process remembers from before is unknown.");
   }
   m_rows->write(row, *m_board);
   return {};
+}
+
+/// Whether a process had been running before the first row.
+bool RerunRun::hadBegun(const std::string& process) const {
+  const auto cycles = m_cycles.find(process);
+  return cycles == m_cycles.end() ? m_tick > 0 : cycles->second.hasBegun();
 }
 
 Result<void> RerunRun::startPrograms() {
@@ -297,7 +305,7 @@ Result<void> RerunRun::startPrograms() {
   for (const RerunChoice& choice : m_chosen.choices) {
     if (choice.isInside) {
       m_programs.push_back(TRY(insideProgram(choice, robot, *m_board, m_recorded.tickRate, m_tick,
-                                             m_tick > 0 || knowsWhere)));
+                                             hadBegun(choice.process) || knowsWhere)));
     } else {
       m_programs.push_back(TRY(separateProgram(choice, robot, place)));
       place.mayCooperate = false;
@@ -316,7 +324,7 @@ Result<void> RerunRun::takeRow(const telemetry::RowView& row) {
   const std::uint64_t next = m_recorded.tickOf(row.time);
   if (next <= m_tick) {  // a change by hand, or two rows of one tick
     m_feed->take(row);
-    m_feed->after(*m_board);
+    m_feed->after(*m_board, running());
     if (!m_cycles.empty()) {
       TRY(runCycles(row));
       compare(row);
@@ -358,7 +366,7 @@ Result<void> RerunRun::tick(std::uint64_t tick, const telemetry::RowView* row) {
   }
   if (row) TRY(runCycles(*row));
   if (row) compare(*row);
-  m_feed->after(*m_board);
+  m_feed->after(*m_board, running());
   m_feed->endTick();
   if (row) m_rows->write(*row, *m_board);
   return {};
@@ -369,8 +377,12 @@ Result<void> RerunRun::runCycles(const telemetry::RowView& row) {
   for (const auto& program : m_programs) {
     const auto found = m_cycles.find(program->process());
     if (found == m_cycles.end() || !found->second.take(row)) continue;
-    m_feed->after(*m_board);
-    TRY(program->run(m_tick, row.time));
+    std::vector<std::string> others = running();
+    std::erase(others, program->process());
+    m_feed->after(*m_board, others);
+    const RecordedCycles& cycles = found->second;
+    if (cycles.beganAnew()) TRY(program->beginAnew(m_recorded.robot, m_tick));
+    TRY(program->run(m_tick, cycles.secondsOf(row)));
   }
   return {};
 }
@@ -394,13 +406,18 @@ Result<void> RerunRun::followSides(std::uint64_t tick) {
   return {};
 }
 
+/// The processes of which the newest row is from within a cycle.
+std::vector<std::string> RerunRun::running() const {
+  std::vector<std::string> names;
+  for (const auto& [process, cycles] : m_cycles) {
+    if (cycles.isRunning()) names.push_back(process);
+  }
+  return names;
+}
+
 void RerunRun::compare(const telemetry::RowView& row) {
   if (row.time < m_begin - rowTolerance || row.time > m_end + rowTolerance) return;
-  std::vector<std::string> running;
-  for (const auto& [process, cycles] : m_cycles) {
-    if (cycles.isRunning()) running.push_back(process);
-  }
-  m_comparison->add(row.time, *m_board, running);
+  m_comparison->add(row.time, *m_board, running());
   writeEvents();
 }
 

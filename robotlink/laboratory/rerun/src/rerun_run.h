@@ -56,6 +56,8 @@ class RerunRun {
   Result<void> begin(const telemetry::RowView& row);
   Result<void> takeRow(const telemetry::RowView& row);
   Result<void> tick(std::uint64_t tick, const telemetry::RowView* row);
+  std::vector<std::string> running() const;
+  bool hadBegun(const std::string& process) const;
   Result<void> runCycles(const telemetry::RowView& row);
   Result<void> followSides(std::uint64_t tick);
   void planWrites(std::uint64_t tick);

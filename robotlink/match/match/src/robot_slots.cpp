@@ -11,6 +11,7 @@
 #include <base/lined_json.h>
 #include <base/system_reason.h>
 #include <base/try.h>
+#include <robotlink/blackboard/cycle_words.h>
 #include <robotlink/match/moment.h>
 #include <robotlink/models/robot_models.h>
 #include <robotlink/processes/robot_config.h>
@@ -29,6 +30,12 @@ std::string memoryOf(const std::string& path, const sim::RobotIdentity& robot) {
   const std::string name =
       whole.stem().string() + '-' + std::to_string(robot.number) + whole.extension().string();
   return (whole.parent_path() / name).string();
+}
+
+/// Where the reference processes of a robot announce their cycles; empty: nowhere.
+std::string announcedCycles(const RuntimeProfile& runtime) {
+  const auto words = runtime.values.find(announceCyclesValue);
+  return words == runtime.values.end() ? std::string() : words->second;
 }
 
 using SteadyClock = std::chrono::steady_clock;
@@ -395,7 +402,8 @@ bool RobotSlots::sharesBoard(const RobotSlot& slot) const {
 }
 
 bool RobotSlots::isSeparate(const RobotSlot& slot) const {
-  return m_base.options.cognition != Cognition::Inline || !slot.runtime.program.empty();
+  return m_base.options.cognition != Cognition::Inline || !slot.runtime.program.empty() ||
+         !announcedCycles(slot.runtime).empty();
 }
 
 Result<void> RobotSlots::identify() {
@@ -683,6 +691,9 @@ std::vector<std::string> RobotSlots::commandOf(const RobotSlot& slot,
     }
   }
   if (options.publishedLocalization) command.emplace_back("--published-localization");
+  if (const std::string words = announcedCycles(slot.runtime); !words.empty()) {
+    command.insert(command.end(), {"--announce-cycles", words});
+  }
   if (m_base.cognitionDebug) {
     command.insert(command.end(), {"--debug-port", std::to_string(m_base.cognitionDebug->port())});
   }

@@ -12,6 +12,7 @@
 #include <base/short_name.h>
 #include <base/try.h>
 #include <resources/resources.h>
+#include <robotlink/blackboard/cycle_words.h>
 
 namespace pitchboard::link {
 namespace {
@@ -241,6 +242,10 @@ Result<RuntimeProfile> loadRuntime(const RuntimeChoice& choice) {
           "the runtime profile " + profile->name);
     }
     known->second = value;
+  }
+  if (const auto words = profile->values.find(announceCyclesValue);
+      words != profile->values.end() && !words->second.empty()) {
+    TRY(cycleWordsFromText(words->second, announceCyclesValue));
   }
   auto expandedProgram = expanded(profile->program, profile->values);
   if (!expandedProgram) {

@@ -8,6 +8,7 @@
 
 #include <base/try.h>
 #include <robotlink/frame/join_boards.h>
+#include <robotlink/import/aligned_recordings.h>
 #include <robotlink/import/opened_recordings.h>
 #include <robotlink/live/live_events.h>
 #include <robotlink/live/live_pipeline.h>
@@ -120,6 +121,7 @@ class SessionImport {
     info.start = WallTime(Duration(m_zero));
     info.created = std::chrono::system_clock::now();
     info.more["field"] = m_field.name;
+    keepAlignment(m_mapping, info);
     telemetry::SessionWriterOptions writing;
     writing.waitWhenFull = true;
     writing.sync = false;
@@ -305,6 +307,26 @@ class SessionImport {
   ImportReport m_report;
 };
 
+/// The mapping with offsets that follow from an event.
+Result<TopicMapping> alignedMapping(const std::vector<std::string>& files,
+                                    const ImportOptions& options,
+                                    const std::function<bool(double)>& progress) {
+  TopicMapping mapping = options.mapping.value_or(TopicMapping());
+  TRY(nameRecordings(files, mapping));
+  if (!options.mapping) {
+    const auto opened = TRY(openTogether(files, mapping.recordings, progress));
+    TopicMapping usual = builtInMapping(topicsOf(opened));
+    usual.recordings = std::move(mapping.recordings);
+    mapping = std::move(usual);
+  }
+  for (MappedRecording& recording : mapping.recordings) {
+    if (options.clock != RecordingClock::Auto) recording.clock = options.clock;
+  }
+  TRY(alignRecordings(files, *options.align, mapping,
+                      [&progress] { return !progress || progress(0.0); }));
+  return mapping;
+}
+
 std::string titleOf(const std::string& path) {
   const auto slash = path.find_last_not_of('/');
   const std::string plain = slash == path.npos ? path : path.substr(0, slash + 1);
@@ -352,6 +374,7 @@ Result<ImportReport> importRecordings(const std::vector<std::string>& files,
   const bool usesBeside = !used.mapping && std::filesystem::exists(beside, problem);
   if (usesBeside) used.mapping = TRY(mappingFromFile(beside));
   auto target = TRY(FileTarget::at(output, options.ifExists, files.front()));
+  if (used.align) used.mapping = TRY(alignedMapping(files, used, progress));
   auto sources = TRY(openTogether(
       files, used.mapping ? used.mapping->recordings : std::vector<MappedRecording>(), progress));
   auto report = TRY(SessionImport(std::move(sources), used)

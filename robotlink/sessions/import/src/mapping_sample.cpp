@@ -99,11 +99,12 @@ struct RecordingGathering {
   std::int64_t end = 0;
 
   void take(const OpenedRecording& from) {
+    begin = begin.value_or(from.time);
+    end = from.time;
+    if (from.item != RecordedItem::Message) return;
     const RecordedMessage& message = from.reader->message();
     if (topics.size() <= message.topic) topics.resize(message.topic + 1);
     topics[message.topic].take(message);
-    begin = begin.value_or(from.time);
-    end = from.time;
   }
 };
 
@@ -157,9 +158,9 @@ Result<MappingSample> sampleMapping(const OpenRecordings& open,
     const double time = secondsOf(source->time);
     if (seconds && time > *seconds) break;
     sample.end = std::max(sample.end, time);
+    found[static_cast<std::size_t>(source - sources.data())].take(*source);
     if (source->item == RecordedItem::Message) {
       const RecordedMessage& message = source->reader->message();
-      found[static_cast<std::size_t>(source - sources.data())].take(*source);
       robots.take(source->reader->topics()[message.topic], message, time);
     }
     TRY(source->step());

@@ -12,12 +12,12 @@ namespace {
 
 using telemetry::RecordedItem;
 
+}  // namespace
+
 std::string fileNameOf(const std::string& path) {
   const std::filesystem::path whole(path);
   return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
 }
-
-}  // namespace
 
 Result<void> OpenedRecording::step() {
   item = TRY(reader->next());

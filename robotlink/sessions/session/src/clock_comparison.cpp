@@ -107,14 +107,12 @@ double measure(const telemetry::SessionReader& session, telemetry::GroupId group
   return std::max(usualGap, gapsOfRows * medianOf(std::move(gaps)));
 }
 
-}  // namespace
-
 /// Takes rows in order of time, and keeps when which variable took which value.
 class ChangeCollector {
  public:
-  using Changes = ClockComparison::Changes;
   ChangeCollector(const std::vector<CommonColumn>& columns, RowSlot CommonColumn::*slot,
-                  std::uint64_t stride, double longestGap, const Changes* wanted, Changes& out)
+                  std::uint64_t stride, double longestGap, const ValueChanges* wanted,
+                  ValueChanges& out)
       : m_columns(columns),
         m_slot(slot),
         m_stride(stride),
@@ -140,15 +138,15 @@ class ChangeCollector {
       auto& times = m_out[key];
       if (times.size() > mostOfAKey) continue;
       // Of the recording, a change lies between two of its rows.
-      times.push_back(m_wanted ? ClockComparison::Change{row.time - gap / 2.0, 1e9}
-                               : ClockComparison::Change{row.time, gap});
+      times.push_back(m_wanted ? ValueChange{row.time - gap / 2.0, 1e9}
+                               : ValueChange{row.time, gap});
       if (m_wanted) last.key = key;
     }
     m_before = row.time;
     m_isFirst = false;
   }
   /// Drops values that came too often, from `also`, too.
-  void finish(Changes* also = nullptr) {
+  void finish(ValueChanges* also = nullptr) {
     for (const auto& [key, times] : m_out) {
       if (also != nullptr && times.size() > mostOfAKey) also->erase(key);
     }
@@ -161,7 +159,7 @@ class ChangeCollector {
     std::optional<std::uint64_t> key;  // of the change to it, if that is kept
   };
   void endOf(std::uint64_t key, double time) {
-    ClockComparison::Change& change = m_out[key].back();
+    ValueChange& change = m_out[key].back();
     change.width = time - change.time;
   }
 
@@ -169,12 +167,14 @@ class ChangeCollector {
   RowSlot CommonColumn::*m_slot;
   std::uint64_t m_stride;
   double m_longestGap;
-  const Changes* m_wanted;
-  Changes& m_out;
+  const ValueChanges* m_wanted;
+  ValueChanges& m_out;
   std::vector<Last> m_last;
   double m_before = 0.0;
   bool m_isFirst = true;
 };
+
+}  // namespace
 
 Result<ClockComparison> ClockComparison::read(const telemetry::SessionReader& session,
                                               telemetry::GroupId robot,
@@ -213,7 +213,7 @@ Result<ClockComparison> ClockComparison::read(const telemetry::SessionReader& se
 
 /// A value that came and went between two rows of the session was there just before the later one;
 /// one that stayed may have come at any time between them.
-double ClockComparison::apart(const Change& session, const Change& recording) {
+double ClockComparison::apart(const ValueChange& session, const ValueChange& recording) {
   return session.time - std::min(session.width, recording.width) / 2.0 - recording.time;
 }
 
@@ -291,8 +291,8 @@ std::optional<double> ClockComparison::firstGuess() const {
     const auto found = m_recording.find(key);
     if (found == m_recording.end()) continue;
     const double weight = 1.0 / static_cast<double>(times.size() * found->second.size());
-    for (const Change& a : times) {
-      for (const Change& b : found->second) {
+    for (const ValueChange& a : times) {
+      for (const ValueChange& b : found->second) {
         votes[static_cast<std::int64_t>(std::floor(apart(a, b) / voteWidth))] += weight;
       }
     }
@@ -315,8 +315,8 @@ Result<ClockFit> ClockComparison::fit() const {
   const auto guess = firstGuess();
   std::vector<ChangePair> pairs;
   for (const auto& [key, times] : m_recording) {
-    for (const Change& a : m_session.at(key)) {
-      for (const Change& b : times) {
+    for (const ValueChange& a : m_session.at(key)) {
+      for (const ValueChange& b : times) {
         const double between = apart(a, b);
         if (guess && std::abs(between - *guess) <= pairWithin) pairs.push_back({b.time, between});
       }
@@ -347,13 +347,13 @@ ClockAgreement ClockComparison::agreement(const RobotClock& clock) const {
   std::vector<double> distances;
   for (const auto& [key, times] : m_session) {
     const auto own = m_recording.find(key);
-    for (const Change& change : times) {
+    for (const ValueChange& change : times) {
       if (change.time < begin || change.time > end) continue;
       ++found.changes;
       if (own == m_recording.end()) continue;
       double nearest = std::numeric_limits<double>::infinity();
-      for (const Change& recorded : own->second) {
-        Change here = recorded;
+      for (const ValueChange& recorded : own->second) {
+        ValueChange here = recorded;
         here.time = clock.toSession(recorded.time);
         const double one = apart(change, here);
         if (std::abs(one) < std::abs(nearest)) nearest = one;

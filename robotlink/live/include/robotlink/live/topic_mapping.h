@@ -5,6 +5,8 @@
 // hold, what is the log, what the referee. builtInMapping() knows the usual messages of ROS; other
 // mappings are JSON files (docs/other-robots.md). Plain values and pure functions; any thread.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -123,12 +125,24 @@ struct MappedRecording {
   bool operator==(const MappedRecording&) const = default;
 };
 
+/// Something that happens once in a match, and that recordings of it have in common.
+enum class AlignEvent : std::uint8_t {
+  KickOff,  ///< PLAYING begins
+  Set       ///< SET begins, before the kick-off
+};
+/// "kick-off", "set", in the order of AlignEvent.
+inline constexpr std::array<std::string_view, 2> alignEventNames{"kick-off", "set"};
+constexpr std::string_view nameOf(AlignEvent event) {
+  return alignEventNames[static_cast<std::size_t>(event)];
+}
+
 struct TopicMapping {
   std::string field;  ///< name of a field (docs/scenarios.md); empty: the default
   std::vector<MappedRobot> robots;
   std::vector<MappedLog> log;
   std::optional<MappedReferee> referee;
   std::vector<MappedRecording> recordings;
+  std::optional<AlignEvent> alignedBy;  ///< what the offsets follow from; empty: set by hand, or 0
   bool operator==(const TopicMapping&) const = default;
 };
 

@@ -5,10 +5,12 @@
 
 #include <QSortFilterProxyModel>
 #include <QStringList>
+#include <algorithm>
 
 namespace pitchboard::ui {
 
-/// Keeps rows in which each word occurs in some column, ignoring case.
+/// Keeps rows in which each word occurs in some column, ignoring case. Rows that stay after a
+/// change stay selected.
 class TextFilter : public QSortFilterProxyModel {
   Q_OBJECT
  public:
@@ -16,10 +18,21 @@ class TextFilter : public QSortFilterProxyModel {
 
   void setFilterText(const QString& text) {
     m_words = text.split(QLatin1Char(' '), Qt::SkipEmptyParts);
-    invalidateFilter();
+    filterAgain();
   }
 
  protected:
+  /// To be called when other rows are let through. invalidateFilter() would take scattered rows out
+  /// one by one, and move all others each time; this begins anew.
+  void filterAgain() { invalidate(); }
+  const QStringList& words() const { return m_words; }
+  /// Returns whether a word can be a part of a number or a time: in long lists those are written
+  /// for no other one.
+  static bool isNumeric(const QString& word) {
+    return std::ranges::all_of(word, [](QChar c) {
+      return c.isDigit() || QStringLiteral(":.,+-").contains(c) || c == QChar(0x2212);
+    });
+  }
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override {
     if (m_words.isEmpty()) return true;
     QString all;

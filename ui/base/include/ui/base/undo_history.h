@@ -23,6 +23,10 @@ class UndoHistory : public QObject {
   /// when that changes.
   void add(QUndoStack* stack, std::function<bool()> usable);
   void refresh();
+  /// A change has been sent off, and becomes a command once it is carried out: undo waits for it.
+  void expect();
+  /// It was carried out, and its command is on the stack, or it was refused.
+  void answer(bool done);
   /// "Undo Remove B1"; disabled if there is nothing to undo.
   QAction* undoAction() const { return m_undo; }
   QAction* redoAction() const { return m_redo; }
@@ -41,6 +45,8 @@ class UndoHistory : public QObject {
   QAction* m_undo;
   QAction* m_redo;
   quint64 m_count = 0;
+  int m_expected = 0;         // changes without an answer
+  bool m_undoesNext = false;  // when there are none any more
 };
 
 }  // namespace pitchboard::ui

@@ -46,7 +46,8 @@ struct MappingSource {
   QString file;            ///< of the mapping: it is read if it exists, and saved there
   QStringList recordings;  ///< files or folders; empty: a connection, which has no offsets
 };
-/// The recordings with these files or folders, and the mapping beside the first one.
+/// The recordings with these files or folders, each by itself, and the mapping beside the first
+/// one.
 MappingSource mappingSource(const QStringList& recordings);
 /// Messages of a few seconds of a Foxglove bridge.
 MappingSource mappingSource(const telemetry::FoxgloveAddress& bridge, const QString& file);
@@ -73,8 +74,10 @@ class MappingDialog : public QDialog {
   QWidget* makeRobotForm();
   QWidget* makePreview();
   QWidget* makeTimes();
+  QWidget* makeAlignment();
   QWidget* makeButtons();
   void readFile();
+  void nameAll();
   void prepare();
   void change(const std::function<void(link::TopicMapping&)>& how);
   void sample();
@@ -85,9 +88,13 @@ class MappingDialog : public QDialog {
   void takeRobotForm();
   void addRobot();
   void removeRobot();
-  void addRecording();
+  void addRecordings();
   void moveRecording(std::size_t recording, double seconds);
   void setClock(std::size_t recording, link::RecordingClock clock);
+  void alignBy(int which);
+  void alignByTimes();
+  void alignByEvent(link::AlignEvent event);
+  void showAlignment();
   link::MappedRecording& timingOf(link::TopicMapping& mapping, std::size_t recording) const;
   void fillUseMenu();
   bool save(const QString& file);
@@ -110,7 +117,8 @@ class MappingDialog : public QDialog {
   MappedField* m_field = nullptr;
   OffsetStrip* m_strip = nullptr;
   QTableWidget* m_times = nullptr;
-  QWidget *m_timesPage = nullptr, *m_robotForm = nullptr;
+  QComboBox* m_align = nullptr;
+  QWidget *m_timesPage = nullptr, *m_robotForm = nullptr, *m_alignRow = nullptr;
   QSpinBox* m_number = nullptr;
   QComboBox *m_team = nullptr, *m_frame = nullptr, *m_unit = nullptr, *m_angleUnit = nullptr,
             *m_ballFrame = nullptr, *m_ballUnit = nullptr;

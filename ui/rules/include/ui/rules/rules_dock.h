@@ -2,7 +2,8 @@
 #pragma once
 
 // The panel Rules: chooses the file of the rules, and lists when they were broken in the source
-// that is shown. A click leads to the moment. UI thread only.
+// that is shown and in the sessions that are compared with it. A click leads to the moment. UI
+// thread only.
 
 class QWidget;
 

@@ -62,13 +62,14 @@ class SessionFiles : public QObject {
   void mappingWanted(const QStringList& recordings);
   /// Another file is shown in place of the session that was open.
   void replaced();
-  /// Several files were dropped: the first one is shown, and these are wanted beside it.
+  /// Several sessions were dropped: the first one is shown, and these are wanted beside it.
   void besideRequested(const QStringList& paths);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void openAll(const QStringList& paths);
   void openBeside();
   /// The window title names the session, which distinguishes several studios.
   void showTitle();

@@ -3,8 +3,9 @@
 
 // A session that is compared with the source that is shown: its robots are drawn on the field, its
 // events in a row of the timeline, its curves in the same plots. The two can be aligned by time
-// (live recordings by their beginnings, because second 0 is arbitrary there), by an event chosen in
-// each, or manually. Owned by ComparedSessions. UI thread only; the file is read on other threads.
+// (live recordings by their beginnings, because second 0 is arbitrary there), by the kick-off, by
+// an event chosen in each, or manually. Owned by ComparedSessions. UI thread only; the file is read
+// on other threads.
 
 #include <QObject>
 #include <optional>
@@ -28,6 +29,8 @@ class ComparedSession : public QObject {
   QString path() const { return m_file.path(); }
   /// Returns the file's name without folder and suffix.
   QString name() const;
+  /// Returns its mark and name, "′₂ match", as in lists.
+  QString markedName() const;
   quint64 id() const { return m_id; }
   /// The number of its colour and mark (session_mark.h); it keeps them until it is closed.
   int number() const { return m_number; }
@@ -52,6 +55,10 @@ class ComparedSession : public QObject {
   void alignThere(double there);
   std::optional<double> here() const { return m_here; }
   std::optional<double> there() const { return m_there; }
+  /// Returns the offset at which the first kick-offs of both are at the same time, s; nothing if
+  /// one of them has none.
+  std::optional<double> offsetByKickOff() const;
+  void alignByKickOff();
   /// Aligns second 0 of both, or the beginnings of live recordings.
   void alignByTime();
   bool isAlignedByTime() const { return m_offset == offsetByTime(); }

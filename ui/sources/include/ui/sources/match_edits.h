@@ -143,6 +143,10 @@ class MatchEdits : public QObject {
   void killProcess(int process);
 
  signals:
+  /// A change that can be undone was sent to the match; answered() follows once it is carried out
+  /// and on the stack, or refused, or lost with its match.
+  void sent();
+  void answered(bool done);
   void failed(const QString& sentence);
   void lockedChanged(bool on);
   /// Another match was started, and undo brings the old one back. `done` is such as "Match
@@ -174,11 +178,13 @@ class MatchEdits : public QObject {
     QElapsedTimer age;               // since its last change
     QString mergeKey() const { return QStringLiteral("setting %1").arg(cause); }
   };
-  void carryOut(const std::shared_ptr<Performed>& edit, std::function<void()> onSuccess = {});
+  void carryOut(const std::shared_ptr<Performed>& edit, std::function<void()> onSuccess = {},
+                const std::function<void()>& onFailure = {});
   void takeBack(const std::shared_ptr<Performed>& edit);
   const EditCommand* lastEdit() const;
   /// Takes the last command off the stack if the match refused to make its change again.
   void dropRefused();
+  void answer(bool done);
   void orderProcesses(const std::function<void(link::ProcessManager&)>& what);
   /// Gives robots these values, in what is known of them here.
   template <class Value>
@@ -209,6 +215,7 @@ class MatchEdits : public QObject {
   std::set<RobotId> m_added;                        // by hand: each stands where it was put
   std::map<TeamColor, link::AdvisorOptions> m_advisors;
   std::string m_physics;
+  int m_unanswered = 0;
   bool m_locked = false, m_reportedLocked = false;
   bool m_replacing = false;  // an edit opens a match: what was done before can still be undone
   std::uint32_t m_lastCause = 0;

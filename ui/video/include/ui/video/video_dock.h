@@ -9,6 +9,7 @@
 
 #include <ui/sources/film_parts.h>
 
+class QUndoStack;
 class QWidget;
 
 namespace pitchboard::ui {
@@ -26,6 +27,11 @@ struct VideoDockParts {
   NoteBoard* notes = nullptr;             ///< what is drawn on pictures; may be null
 };
 QWidget* makeVideoDock(const VideoDockParts& parts, QWidget* parent);
+
+/// Returns the changes of the alignment that can be undone; of the panel.
+QUndoStack* videoUndoStack(QWidget* videoDock);
+/// Gives up the drag that aligns a video; returns whether there was one.
+bool cancelVideoDrag(QWidget* videoDock);
 
 /// Returns the cameras that a panel shows, with their alignment, for an exported video.
 std::vector<FilmCamera> filmCameras(const QWidget* videoDock);

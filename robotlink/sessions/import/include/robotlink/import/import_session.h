@@ -22,6 +22,9 @@ struct ImportOptions {
   std::optional<TopicMapping> mapping;  ///< empty: builtInMapping()
   /// Of all recordings; Auto: what the mapping says of each.
   RecordingClock clock = RecordingClock::Auto;
+  /// Each file is a recording of its own, moved so that this happens at the same time in all;
+  /// empty: the offsets of the mapping count.
+  std::optional<AlignEvent> align;
   IfExists ifExists = IfExists::Refuse;
   std::string program = "pitchboard";  ///< name and version, for the session
 };
@@ -44,10 +47,10 @@ struct ImportReport {
 std::string mappingBeside(const std::string& recording);
 
 /// Imports files or folders into a new session. Several files of one format are a split recording,
-/// but those that the mapping names as recordings of their own.
+/// but those that the mapping names as recordings of their own, and all with `align`.
 /// `progress` is called with 0 to 1; if it returns false, the import stops and nothing is written.
-/// Fails as openRecordings(), FileTarget and SessionWriter do, and with NotFound if nothing in the
-/// recordings is understood.
+/// Fails as openRecordings(), alignRecordings(), FileTarget and SessionWriter do, and with NotFound
+/// if nothing in the recordings is understood.
 Result<ImportReport> importRecordings(const std::vector<std::string>& files,
                                       const std::string& output, const ImportOptions& options,
                                       const std::function<bool(double)>& progress = {});

@@ -28,6 +28,8 @@ struct OpenedRecording {
   Result<void> step();
 };
 
+/// Returns the name of a file or folder without those that it is in, as MappedRecording has it.
+std::string fileNameOf(const std::string& path);
 /// Opens files and folders. Those that `recordings` name are read each by itself; the others of one
 /// format are a split recording. Fails as telemetry::openRecordings() does.
 Result<std::vector<OpenedRecording>> openTogether(const std::vector<std::string>& files,

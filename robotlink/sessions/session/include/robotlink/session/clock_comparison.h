@@ -50,6 +50,15 @@ struct ClockAgreement {
   std::string text() const;   ///< "1834 of 2010 changes agree (91 %), residual 12.3 ms"
 };
 
+/// When a variable took a value. In the session: when a row had the value first, and how long
+/// before it the last row was. In the recording: when it took the value, and for how long it kept
+/// it. In seconds.
+struct ValueChange {
+  double time = 0.0, width = 0.0;
+};
+/// By a hash of variable and value.
+using ValueChanges = std::unordered_map<std::uint64_t, std::vector<ValueChange>>;
+
 class ClockComparison {
  public:
   /// Reads what both have of the group's robot. Fails with Conflict if `goesOn` returns false.
@@ -63,20 +72,11 @@ class ClockComparison {
   ClockAgreement agreement(const RobotClock& clock) const;
 
  private:
-  /// Of the session: when a row had the value first, and how long before it the last row was. Of
-  /// the recording: when it took the value, and for how long it kept it.
-  struct Change {
-    double time = 0.0, width = 0.0;
-  };
-  /// Where a variable took a value, by a hash of both.
-  using Changes = std::unordered_map<std::uint64_t, std::vector<Change>>;
-  friend class ChangeCollector;
-
-  static double apart(const Change& session, const Change& recording);
+  static double apart(const ValueChange& session, const ValueChange& recording);
   std::optional<double> firstGuess() const;
 
   std::string m_robot;
-  Changes m_session, m_recording;
+  ValueChanges m_session, m_recording;
   telemetry::TimeRange m_recorded;  // from its first to its last row
 };
 
