@@ -110,7 +110,7 @@ class VariablesDock : public QWidget {
     m_filterText->setPlaceholderText(QStringLiteral("Filter, e.g. ball dist"));
     m_filterText->setToolTip(
         QStringLiteral("Show rows that contain all words in robot, process, name or unit. "
-                       "Enter leads to the first, and plots it"));
+                       "Enter selects the first, and Enter again plots it"));
     m_filterText->setClearButtonEnabled(true);
     m_filterText->addAction(themedIcon(QStringLiteral("view-filter")), QLineEdit::LeadingPosition);
     connect(m_filterText, &QLineEdit::textChanged, this, [this](const QString& text) {
