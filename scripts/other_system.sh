@@ -151,7 +151,9 @@ install_and_remove() {
   done
   python3 -c 'import pitchboard; print("module", pitchboard.__version__)' || return
   installed=$(dpkg-query -W -f '${Package} ' '*pitchboard*')
-  DEBIAN_FRONTEND=noninteractive apt-get purge -y -qq $installed && apt-get autoremove --purge -y -qq || return
+  DEBIAN_FRONTEND=noninteractive apt-get purge -y -qq $installed || return
+  # What libc6 and others only recommend was not there before.
+  apt-get autoremove --purge -y -qq -o APT::AutoRemove::RecommendsImportant=false -o APT::AutoRemove::SuggestsImportant=false || return
   dpkg --get-selections | diff /root/before - || { echo "error: not all packages are gone"; return 1; }
   ! find / -xdev \( -path /root -o -path /proc -o -path /var/lib/apt -o -path /var/cache \) -prune -o -iname '*pitchboard*' -print |
     grep . || { echo "error: these files are left"; return 1; }

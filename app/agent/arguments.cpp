@@ -213,22 +213,13 @@ Result<link::VariableCatalog> withCycles(const link::VariableCatalog& catalog,
                                          const link::SegmentLayout& layout,
                                          std::span<const link::CycleWords> cycles) {
   if (cycles.empty()) return catalog;
+  TRY(link::checkFree(cycles, catalog, "--record-cycles"));
   auto map = nlohmann::ordered_json::parse(catalog.toJson(layout));
   map.erase("segment");  // the map is for any
-  const auto add = [&](const std::string& name, int word) -> Result<void> {
-    for (const link::Variable& known : catalog.variables()) {
-      const bool isThere = known.type == link::VariableType::Int && known.index == word;
-      if (!isThere || known.name == name) continue;
-      return invalid("the word " + std::to_string(word) + " of --record-cycles is " + known.name +
-                     "; choose one that the map leaves free");
-    }
-    map["int"][name] = word;
-    return {};
-  };
   for (const link::CycleWords& words : cycles) {
-    TRY(add(link::cycleVariable(words.process, link::cycleSuffix), words.cycle.index));
+    map["int"][link::cycleVariable(words.process, link::cycleSuffix)] = words.cycle.index;
     if (!words.clock) continue;
-    TRY(add(link::cycleVariable(words.process, link::clockSuffix), words.clock->index));
+    map["int"][link::cycleVariable(words.process, link::clockSuffix)] = words.clock->index;
   }
   return link::VariableCatalog::fromJson(map.dump(), "--record-cycles");
 }

@@ -188,7 +188,12 @@ Result<link::SimulatedMatch> createMatch(const link::Scenario& scenario,
 
 Outcome playToEnd(link::MatchPlayer& player, double speed, const std::function<bool()>& goOn) {
   player.observe(std::make_shared<ProcessNews>());
-  return Playing(player, speed).play(goOn);
+  const sim::Snapshot before = player.match().simulation().snapshot();
+  Outcome outcome = Playing(player, speed).play(goOn);
+  for (const sim::RobotSnapshot& robot : before.robots) {
+    outcome.before.emplace(robot.identity.id, robot.statistics);
+  }
+  return outcome;
 }
 
 }  // namespace pitchboard::cli

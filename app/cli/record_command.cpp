@@ -107,6 +107,20 @@ Result<int> recordMatch(const RecordOptions& options) {
   return 0;
 }
 
+void warnOfNoRobot(const link::LiveDetails& details) {
+  const auto arrived = static_cast<unsigned long long>(details.network.datagrams());
+  if (arrived > 0) {
+    std::fprintf(stderr,
+                 "warning: no robot was recorded: of %llu datagrams none came from one; "
+                 "pitchboard-cli listen shows what they are\n",
+                 arrived);
+  } else {
+    std::fprintf(stderr,
+                 "warning: no robot was recorded: nothing arrived; robots have to send to this "
+                 "computer, or to everybody, on the ports above, and no firewall may stop them\n");
+  }
+}
+
 Result<int> recordLive(const RecordOptions& options) {
   const link::LiveOptions live = TRY(liveOptions(options.network));
   link::LiveWatch watch(live);
@@ -144,6 +158,7 @@ Result<int> recordLive(const RecordOptions& options) {
   const std::string refused = refusedText(details);
   if (!refused.empty()) std::fprintf(stderr, "%s\n", refused.c_str() + 2);
   const auto finished = recorder->finish();
+  if (recorder->status().rows == 0) warnOfNoRobot(details);
   return ended(recorder->path(), recorder->status(), finished);
 }
 

@@ -66,6 +66,18 @@ nlohmann::ordered_json deathsJson(const link::SimulatedMatch& match) {
   return died;
 }
 
+/// What the robot did in this run: a match that goes on from a moment has counted before.
+sim::RobotStatistics doneBy(const sim::RobotSnapshot& robot, const Outcome& outcome) {
+  sim::RobotStatistics done = robot.statistics;
+  const auto before = outcome.before.find(robot.identity.id);
+  if (before == outcome.before.end()) return done;
+  done.distanceWalked -= before->second.distanceWalked;
+  done.kicks -= before->second.kicks;
+  done.falls -= before->second.falls;
+  done.unknownActions -= before->second.unknownActions;
+  return done;
+}
+
 const char* reasonText(const std::string& finishedBy) {
   if (finishedBy == "goal") return "a goal was scored";
   if (finishedBy == "ball_out") return "the ball left the field";
@@ -100,7 +112,8 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   const sim::SimulationSettings& settings = match.simulation().state().settings;
   std::printf("%s (%s physics, %s noise, seed %" PRIu64 ")\n",
               (scenario.title.empty() ? scenario.name : scenario.title).c_str(),
-              settings.physics.c_str(), outcome.noise.c_str(), settings.seed);
+              settings.physics.c_str(), outcome.noise == "none" ? "no" : outcome.noise.c_str(),
+              settings.seed);
   std::printf("  Ended      %s\n", reasonText(outcome.finishedBy));
   std::printf("  Score      %s\n", resultText(match.result()).c_str());
   std::printf("  Time       %.2f s simulated in %.2f s, %" PRIu64 " ticks, %.1f x real time\n",
@@ -133,9 +146,9 @@ void printSummary(const link::SimulatedMatch& match, const Outcome& outcome) {
   if (now.robots.empty()) return;
   std::printf("  Robot   walked   kicks  falls  unknown actions\n");
   for (const sim::RobotSnapshot& robot : now.robots) {
+    const sim::RobotStatistics done = doneBy(robot, outcome);
     std::printf("  %-5s %7.2f m  %5u  %5u  %15u\n", robot.identity.name().c_str(),
-                robot.statistics.distanceWalked, robot.statistics.kicks, robot.statistics.falls,
-                robot.statistics.unknownActions);
+                done.distanceWalked, done.kicks, done.falls, done.unknownActions);
   }
 }
 
@@ -145,12 +158,13 @@ void printJson(const link::SimulatedMatch& match, const Outcome& outcome) {
   const sim::SimulationSettings& settings = match.simulation().state().settings;
   Json robots = Json::array();
   for (const sim::RobotSnapshot& robot : now.robots) {
+    const sim::RobotStatistics done = doneBy(robot, outcome);
     robots.push_back({{"id", robot.identity.id.value},
                       {"name", robot.identity.name()},
-                      {"distance_m", robot.statistics.distanceWalked},
-                      {"kicks", robot.statistics.kicks},
-                      {"falls", robot.statistics.falls},
-                      {"unknown_actions", robot.statistics.unknownActions}});
+                      {"distance_m", done.distanceWalked},
+                      {"kicks", done.kicks},
+                      {"falls", done.falls},
+                      {"unknown_actions", done.unknownActions}});
   }
   Json teams = Json::array();
   const link::MatchResult result = match.result();

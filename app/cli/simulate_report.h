@@ -4,6 +4,7 @@
 // Prints what `simulate` and `record` show at the end of a match, to stdout. Main thread.
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include <robotlink/match/simulated_match.h>
@@ -16,6 +17,7 @@ struct Outcome {
   double wallSeconds = 0.0;
   std::string finishedBy;  ///< SimulatedMatch::finishedBy(), or "interrupted"
   std::string noise;       ///< name of the preset, or "custom"
+  std::map<RobotId, sim::RobotStatistics> before;  ///< what robots had done when it began
 };
 
 /// Returns the name of the preset with exactly these values, or "custom".

@@ -45,24 +45,8 @@ std::string checkModel(const std::string& text) {
 std::string checkCycles(const std::string& text) {
   const auto all = link::cycleWordsFromText(text, "--announce-cycles");
   if (!all) return all.error().message;
-  const auto usedBy = [](link::IntVar word) {
-    for (const link::Variable& known : link::VariableCatalog::extended().variables()) {
-      const bool isInt = known.type == link::VariableType::Int;
-      const int offset = isInt ? 0 : link::Blackboard::floatOffset;
-      if (known.index + offset == word.index) return known.name;
-    }
-    return std::string();
-  };
-  for (const link::CycleWords& words : *all) {
-    for (const link::IntVar word : {words.cycle, words.clock.value_or(words.cycle)}) {
-      const std::string name = usedBy(word);
-      if (!name.empty()) {
-        return "word " + std::to_string(word.index) + " is " + name +
-               "; choose one that the map leaves free, such as 460";
-      }
-    }
-  }
-  return {};
+  const auto free = link::checkFree(*all, link::VariableCatalog::extended(), "--announce-cycles");
+  return free ? std::string() : free.error().message;
 }
 
 void addCommunicationOptions(CLI::App& command, Arguments& a) {

@@ -35,6 +35,47 @@ class TestCliLiveRecording : public QObject {
   QTemporaryDir m_folder;
 
  private slots:
+  void aRecordingWithoutARobotSaysSo_data() {
+    QTest::addColumn<QByteArray>("datagram");
+    QTest::addColumn<QByteArray>("says");
+    QTest::newRow("nothing") << QByteArray() << QByteArray("nothing arrived");
+    QTest::newRow("something else") << QByteArray("hello") << QByteArray("of 1 datagrams none");
+  }
+  void aRecordingWithoutARobotSaysSo() {
+    QFETCH(QByteArray, datagram);
+    QFETCH(QByteArray, says);
+    const TestSocket socket;
+    int referee = 0, base = 0;
+    {
+      const TestSocket first, second;
+      referee = first.port();
+      base = second.port() - 1;
+    }
+    QProcess process;
+    process.start(
+        program, {"record", "--live", "--bind", "127.0.0.1", "--robots", "1", "--port-base",
+                  QString::number(base), "--gamecontroller-port", QString::number(referee),
+                  "--variables-port-base", "0", "--force", "-o", m_folder.filePath("nobody.mcap")});
+    QByteArray err;
+    QTRY_VERIFY_WITH_TIMEOUT((err += process.readAllStandardError()).contains("listening at"),
+                             30'000);
+    if (!datagram.isEmpty()) {
+      QVERIFY(socket.send(static_cast<std::uint16_t>(referee), datagram.toStdString()));
+      QTRY_VERIFY_WITH_TIMEOUT(
+          [&] {
+            const auto session =
+                SessionReader::open(m_folder.filePath("nobody.mcap").toStdString());
+            return session && session->count(SessionStream::RefereeRaw) == 1;
+          }(),
+          30'000);
+    }
+    process.terminate();
+    QVERIFY(process.waitForFinished(60'000));
+    err += process.readAllStandardError();
+    QCOMPARE(process.exitCode(), 0);
+    QVERIFY2(err.contains("no robot was recorded") && err.contains(says), err.constData());
+  }
+
   void liveRobotsAreRecorded() {
     TestSocket robot;
     int base = 0, referee = 0;

@@ -62,6 +62,19 @@ class TestCliMoments : public QObject {
     QCOMPARE(other.readAll(), text);
   }
 
+  /// What its robots had done before belongs to the recording.
+  void whatRobotsDidCountsFromTheMoment() {
+    const Run run =
+        cli({"simulate", "--from", m_session, "--at", "5", "--duration", "0.1", "--json"});
+    QVERIFY2(run.exitCode == 0, run.err.constData());
+    const auto robots = QJsonDocument::fromJson(run.out).object()["robots"].toArray();
+    QVERIFY(!robots.isEmpty());
+    for (const QJsonValue& robot : robots) {
+      QVERIFY2(robot["distance_m"].toDouble(-1) >= 0 && robot["distance_m"].toDouble() < 0.1,
+               run.out.constData());
+    }
+  }
+
   /// A goal was scored; in other runs the keeper is luckier. The ends of an exact interval are
   /// those rates for which the result, or a more extreme one, has a probability of 2.5 %.
   void outcomesAreRatesWithExactIntervals() {

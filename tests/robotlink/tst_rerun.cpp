@@ -516,7 +516,7 @@ void TestRerun::mistakesAreNamed_data() {
   row("no profile", "B1", "decision", "no-such.json", {"no-such.json"});
   row("senses", "B1", "vision", "reference", {"vision"});
   row("referee", "B1", "communication", "reference",
-      {"packets of the referee", "communication=PROGRAM"});
+      {"packets of the referee", "the match itself"});
   row("no whole profile", "B1", "", "no-such.json", {"no-such.json"});
   row("no program", "B1", "decision", "", {"decision=reference"});
 }

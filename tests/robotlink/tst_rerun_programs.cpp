@@ -12,12 +12,16 @@
 
 #include <base/unique_fd.h>
 #include <robotlink/blackboard/system_v.h>
+#include <robotlink/cognition/process_registry.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/rerun/program_watch.h>
 #include <robotlink/rerun/rerun_text.h>
 #include <robotlink/session/row_slot.h>
+#include <telemetry/referee/gamecontroller_encoder.h>
 #include <telemetry/session/session_writer.h>
 
 #include "../support/own_match_number.h"
+#include "../support/referee_game.h"
 #include "rerun_rig.h"
 
 namespace tst_rerun_programs {
@@ -120,6 +124,70 @@ class TestRerunPrograms : public QObject {
       if (withDatagrams && i == 40) send(time, "10.0.0.3", "9");  // its own comes not back
       if (withDatagrams && i == 60) send(time, "10.0.0.9", "7");
       writer->append(id, {time, std::array<std::uint32_t, 2>{state, 0}, {}});
+    }
+    if (!writer->finish()) qFatal("not written");
+    return path;
+  }
+
+  /// A live robot with our communication, and the packets that it got: kick-off, a penalty and a
+  /// goal in 70 s. Between `deafFrom` and `deafUntil` the robot heard none of them.
+  std::string recordOurs(const char* name, bool setPlay, double deafFrom, double deafUntil) const {
+    const std::string path = m_folder.filePath(name).toStdString();
+    const VariableCatalog& map = VariableCatalog::extended();
+    telemetry::SessionWriterOptions writing;
+    writing.waitWhenFull = true;
+    auto writer = telemetry::SessionWriter::create(path, {}, writing).value();
+    telemetry::GroupInfo group{"R2", {}};
+    std::vector<IntVar> words;
+    for (const char* variable : {"ROBOT_NUMBER", "COM_REFEREE", "COM_SET_PLAY", "COM_GOALS_OWN",
+                                 "COM_GOALS_THEIRS", "COM_SECONDS_LEFT", "VISION_LOST"}) {
+      group.columns.emplace_back();
+      group.columns.back().name = variable;
+      group.columns.back().type = telemetry::ColumnType::Int32;
+      words.push_back(map.intVar(variable).value());
+    }
+    group.robot.emplace();
+    group.robot->slot = group.robot->number = 2;
+    group.robot->team = TeamColor::Red;
+    const auto id = writer->addGroup(group);
+
+    RefereeGame game("humanoid-2021", true);
+    telemetry::DatagramBatch arrived;
+    ProcessOptions options;
+    options.robot = RobotId{2};
+    options.shirt = 2;
+    options.refereeTeam = game.packet().teams[1].number;
+    options.announceSetPlay = setPlay;
+    options.sends = false;
+    options.refereeDatagrams = [&](telemetry::DatagramBatch& batch) {
+      batch.clear();
+      std::swap(batch, arrived);
+      return !batch.empty();
+    };
+    auto communication = findProcess("communication")->make(options).value();
+    Blackboard board = Blackboard::onHeap();
+    const telemetry::Sender referee{telemetry::parseAddress("10.0.0.9").value(), 3838};
+    for (int i = 0; i <= 1400; ++i) {
+      const double time = 0.05 * i;
+      game.runTo(time);
+      if (i == 900)
+        game.call({.kind = sim::CallKind::Penalise,
+                   .robot = RobotId{5},
+                   .penalty = PenaltyKind::Pushing});
+      if (i == 1200) (void)game.simulation->placeBall({4.7, 0.0});
+      if (i % 10 == 7) {
+        const std::string packet = telemetry::encodeReferee(game.packet()).value();
+        telemetry::SessionDatagram datagram{time - 0.01, referee, 3838, packet};
+        writer->append(telemetry::SessionStream::RefereeRaw, datagram);
+        const telemetry::WallTime at(telemetry::Duration(std::llround(datagram.time * 1e9)));
+        if (time < deafFrom || time >= deafUntil) {
+          arrived.append({at, referee, 3838, false, packet});
+        }
+      }
+      communication->step(board, Clock{time});
+      std::vector<std::uint32_t> row;
+      for (const IntVar word : words) row.push_back(static_cast<std::uint32_t>(board.read(word)));
+      writer->append(id, {time, row, {}});
     }
     if (!writer->finish()) qFatal("not written");
     return path;
@@ -271,6 +339,40 @@ while True:
     const auto deaf = rerun(session, options);
     QVERIFY2(deaf && variable(*deaf, "COM_REFEREE").differs(),
              deaf ? qPrintable(shown(*deaf)) : "");
+  }
+
+  void ourCommunicationHearsTheRefereeAgain_data() {
+    QTest::addColumn<bool>("setPlay");
+    QTest::newRow("COM_REFEREE") << false;
+    QTest::newRow("with set play, score and time") << true;
+  }
+  void ourCommunicationHearsTheRefereeAgain() {
+    QFETCH(bool, setPlay);
+    const RerunOptions options = optionsFor("R2", {{"communication", "reference"}});
+    const std::string path = recordOurs(setPlay ? "told.mcap" : "ours.mcap", setPlay, 99.0, 99.0);
+    const auto same = rerun(opened(path), options);
+    QVERIFY2(same, same ? "" : same.error().text().c_str());
+    QVERIFY2(same->unequal() == 0, qPrintable(shown(*same)));
+    QVERIFY(variable(*same, "COM_REFEREE").compared > 1300);
+    QCOMPARE(same->variables.size(), std::size_t(setPlay ? 7 : 2));
+    std::set<std::uint32_t> orders;
+    opened(path).rows({0.0, 70.0}, {}, [&](telemetry::GroupId, const telemetry::RowView& row) {
+      orders.insert(row.words[1]);
+      return true;
+    });
+    QVERIFY2(orders.size() >= 4, QByteArray::number(orders.size()));  // ready, set, play, stop
+
+    // A robot that did not hear its penalty: the rerun obeys, from then on and nowhere else.
+    const auto deaf = rerun(
+        opened(recordOurs(setPlay ? "deaf-told.mcap" : "deaf-ours.mcap", setPlay, 45.0, 50.0)),
+        options);
+    QVERIFY2(deaf, deaf ? "" : deaf.error().text().c_str());
+    const ComparedVariable& order = variable(*deaf, "COM_REFEREE");
+    QVERIFY2(order.stretches.size() == 1, qPrintable(shown(*deaf)));
+    QVERIFY2(order.stretches[0].begin > 45.0 && order.stretches[0].begin < 46.0 &&
+                 order.stretches[0].end < 51.0,
+             qPrintable(shown(*deaf)));
+    QCOMPARE(order.stretches[0].rerun, double(refereeStop));
   }
 
   void aProgramThatDiesIsNamedWithItsLastWords() {

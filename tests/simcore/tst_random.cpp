@@ -106,6 +106,19 @@ class TestRandom : public QObject {
     }
   }
 
+  void aBatchHasTheNumbersOfManyWorlds() {
+    const std::vector<RandomBatch::Tick> ticks{{1, 5}, {2, 5}, {1, 1ULL << 34}, {1ULL << 40, 7}};
+    const std::vector<int> robots{4, 9, 2};
+    RandomBatch many;
+    many.make(ticks, NoiseStream::Imu, robots, 3);
+    for (std::size_t i = 0; i < ticks.size() * robots.size(); ++i) {
+      const RandomBatch::Tick& tick = ticks[i / robots.size()];
+      CounterRandom one(tick.seed, robots[i % robots.size()], NoiseStream::Imu, tick.tick);
+      auto draws = many.of(i);
+      for (int k = 0; k < 3; ++k) QCOMPARE(draws.normal(0.0, 1.0), one.normal(0.0, 1.0));
+    }
+  }
+
   void everySimdLevelGivesTheSameBits_data() {
     QTest::addColumn<int>("level");
     QTest::newRow("avx2") << static_cast<int>(SimdLevel::Avx2);
@@ -117,15 +130,19 @@ class TestRandom : public QObject {
     if (!wide) QSKIP("this processor or compiler lacks this SIMD level");
     const random_loops::Loops& narrow = *random_loops::loopsOf(SimdLevel::Baseline);
     constexpr std::size_t counters = 101;
-    std::vector<std::uint32_t> high(counters), robot(counters);
+    std::vector<std::uint32_t> seedLow(counters), tickLow(counters, 8), high(counters);
+    std::vector<std::uint32_t> seedHigh(counters, 1), robot(counters);
     for (std::size_t i = 0; i < counters; ++i) {
+      seedLow[i] = static_cast<std::uint32_t>(77 * i);
       high[i] = static_cast<std::uint32_t>(i * i);
       robot[i] = static_cast<std::uint32_t>(i + 1);
     }
     const auto all = [&](const random_loops::Loops& loops) {
       std::vector<double> values(4 * counters);
       double* const normals = values.data() + 2 * counters;
-      loops.fillWholes({77, 8, 2}, high.data(), robot.data(), values.data(), counters);
+      loops.fillWholes(
+          {seedLow.data(), seedHigh.data(), tickLow.data(), high.data(), robot.data(), 2},
+          values.data(), counters);
       loops.fillNormals(values.data(), normals, 2 * counters);
       return values;
     };

@@ -11,17 +11,16 @@
 
 namespace pitchboard::random_loops {
 
-/// What all counters of a call have in common.
-struct Key {
-  std::uint64_t seed;
-  std::uint32_t tickLow, stream;
+/// Where n random blocks come from: arrays of the words of their keys and counters, and the stream
+/// that they have in common.
+struct Counters {
+  const std::uint32_t *seedLow, *seedHigh, *tickLow, *high, *robot;
+  std::uint32_t stream;
 };
 
 struct Loops {
-  /// Philox4x32-10 for n counters, which differ in two of their words: of each two whole numbers of
-  /// 53 random bits.
-  void (*fillWholes)(const Key& key, const std::uint32_t* high, const std::uint32_t* robot,
-                     double* wholes, std::size_t n);
+  /// Philox4x32-10 for n counters: of each two whole numbers of 53 random bits.
+  void (*fillWholes)(const Counters& counters, double* wholes, std::size_t n);
   /// The quantiles of n whole numbers, right in the middle of the normal law only.
   void (*fillNormals)(const double* wholes, double* normals, std::size_t n);
 };

@@ -173,8 +173,8 @@ bool liesOnFront(const RigidRobot& robot) {
          (robot.posture == Posture::GettingUp && robot.action == getUpFromFront);
 }
 
-void drawMotion(Tick& tick) {
-  tick.draw(tick.batches.motion, NoiseStream::Motion, 3, motionIsNoisy);
+void drawMotion(Tick& tick, std::span<const RandomBatch::Tick> ahead) {
+  tick.draw(tick.batches.motion, motionIsNoisy, ahead);
 }
 
 void stepControl(Tick& tick, std::size_t index, const RobotCommand& command, Percepts& percept) {

@@ -14,8 +14,9 @@ namespace pitchboard::sim::rigid {
 /// IMU_ACCEL_Z has to fall first), s.
 inline constexpr double lyingTime = 0.5;
 
-/// Draws the noise of all robots' motion in this tick, before the first stepControl().
-void drawMotion(Tick& tick);
+/// Draws the noise of all robots' motion in this tick, before the first stepControl(), or that of
+/// ticks `ahead`.
+void drawMotion(Tick& tick, std::span<const RandomBatch::Tick> ahead = {});
 
 /// Selects the action as the published state machine does (published-exact.md "Control"), kicks,
 /// changes the speeds within the gait's acceleration and turns the robot; leaves the velocity that

@@ -29,8 +29,8 @@ YawErrors drawErrors(const Tick& tick, std::size_t index) {
 
 }  // namespace
 
-void drawImu(Tick& tick) {
-  tick.draw(tick.batches.imu, NoiseStream::Imu, 2, imuIsNoisy);
+void drawImu(Tick& tick, std::span<const RandomBatch::Tick> ahead) {
+  tick.draw(tick.batches.imu, imuIsNoisy, ahead);
 }
 
 void stepImu(Tick& tick, std::size_t index, const RobotCommand& command, ImuPercept& percept) {

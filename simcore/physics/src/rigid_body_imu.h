@@ -13,7 +13,7 @@ namespace pitchboard::sim::rigid {
 inline constexpr double gravity = 9.80665;
 
 /// Draws the noise of all robots' IMUs in this tick, before the first stepImu().
-void drawImu(Tick& tick);
+void drawImu(Tick& tick, std::span<const RandomBatch::Tick> ahead = {});
 
 /// Fills percept.imu. Yaw in (−π, π], relative to 180° for robots whose IMU starts there and to the
 /// last reset; gyro in rad/s; accelerometer in g (what it feels: +1 upwards at rest), x forward and

@@ -84,12 +84,21 @@ class RigidBodyModel final : public PhysicsModel {
     std::vector<Event> none;  // senses report nothing
     rigid::Tick tick = tickOf(world, none, scratch());
     rigid::drawImu(tick);
-    tick.batches.ballDrawn = false;
+    tick.batches.ballDrawn = tick.batches.ballAsLandmarkDrawn = false;
     for (std::size_t i = 0; i < tick.state.robots.size(); ++i) {
       rigid::stepImu(tick, i, commands[i], percepts[i].imu);
       rigid::stepVision(tick, i, commands[i], percepts[i]);
     }
     rigid::remember(tick);
+  }
+
+  void drawAhead(WorldState& world, std::span<const RandomBatch::Tick> ticks) override {
+    if (ticks.empty()) return;
+    std::vector<Event> none;
+    rigid::Tick tick = tickOf(world, none, scratch());
+    rigid::drawMotion(tick, ticks);
+    rigid::drawImu(tick, ticks);
+    rigid::drawSight(tick, ticks);
   }
 
   void robotAdded(WorldState& world, const Pose& pose) const override {

@@ -6,11 +6,13 @@
 // radians, seconds. Scratch memory of a thread; nothing here outlives a tick but the memory itself
 // and the sine and cosine of a yaw, which are remembered by its bits.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <base/angles.h>
@@ -54,11 +56,49 @@ struct Motion {
   Velocity stopped;  ///< m/s that it loses, or gains
 };
 
-/// What noise all robots have in this tick, stream by stream; made where the stream is used first.
+/// The random numbers of one stream: of this tick, or drawn ahead for ticks of many worlds.
+class DrawnStream {
+ public:
+  DrawnStream(NoiseStream stream, int count) : m_stream(stream), m_count(count) {}
+
+  void drawAhead(std::span<const RandomBatch::Tick> ticks, std::span<const int> robots) {
+    m_ticks.assign(ticks.begin(), ticks.end());
+    m_robots.assign(robots.begin(), robots.end());
+    m_at = 0;
+    m_batch.make(ticks, m_stream, robots, m_count);
+  }
+  /// Draws those of this tick, unless they are there.
+  void draw(const RandomBatch::Tick& tick, std::span<const int> robots) {
+    if (std::ranges::equal(m_robots, robots)) {
+      for (; m_at < m_ticks.size(); ++m_at) {
+        if (m_ticks[m_at] == tick) return;
+      }
+    }
+    drawAhead({&tick, 1}, robots);
+  }
+  /// Returns the numbers of a robot in the tick of the last draw().
+  RandomBatch::Sequence of(std::size_t robot) const {
+    return m_batch.of(m_at * m_robots.size() + robot);
+  }
+
+ private:
+  NoiseStream m_stream;
+  int m_count;  // numbers of each robot
+  RandomBatch m_batch;
+  std::vector<RandomBatch::Tick> m_ticks;
+  std::vector<int> m_robots;
+  std::size_t m_at = 0;  // in m_ticks
+};
+
+/// What noise all robots have in this tick, stream by stream; drawn where the stream is used first.
 struct Noise {
   std::vector<int> robots;  ///< their numbers
-  RandomBatch motion, imu, ball;
-  bool ballDrawn = false;  ///< in this tick: only where somebody sees the ball
+  DrawnStream motion{NoiseStream::Motion, 3};
+  DrawnStream imu{NoiseStream::Imu, 2};
+  DrawnStream ball{NoiseStream::BallVision, 3};
+  DrawnStream ballAsLandmark{NoiseStream::Landmarks, 2};
+  // In this tick: only where somebody sees the ball.
+  bool ballDrawn = false, ballAsLandmarkDrawn = false;
 };
 
 /// The tick that is being computed.
@@ -77,16 +117,22 @@ struct Tick {
   const NoiseParameters& noise(std::size_t robot) const {
     return settings().noise.ofModel ? model(robot).noise : settings().noise;
   }
-  /// Makes `count` random numbers per robot if the noise of at least one robot needs them.
+  /// Draws the numbers of this tick if the noise of at least one robot needs them; with `ahead`,
+  /// those of other ticks, which need not be drawn again.
   template <class IsNoisy>
-  void draw(RandomBatch& stream, NoiseStream name, int count, const IsNoisy& isNoisy) const {
+  void draw(DrawnStream& stream, const IsNoisy& isNoisy,
+            std::span<const RandomBatch::Tick> ahead = {}) const {
     const std::size_t robots = world.robots.size();
     bool any = false;
     for (std::size_t i = 0; i < robots && !any; ++i) any = isNoisy(noise(i));
     if (!any) return;
     batches.robots.resize(robots);
     for (std::size_t i = 0; i < robots; ++i) batches.robots[i] = world.robots[i].id.value;
-    stream.make(settings().seed, name, world.tick, batches.robots, count);
+    if (ahead.empty()) {
+      stream.draw({settings().seed, world.tick}, batches.robots);
+    } else {
+      stream.drawAhead(ahead, batches.robots);
+    }
   }
   void report(EventKind kind, std::size_t robot, int value = 0) {
     events.push_back({kind, world.tick, world.robots[robot].id, value});

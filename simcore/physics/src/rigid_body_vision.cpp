@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <utility>
 
 #include <base/angles.h>
 #include <base/random.h>
@@ -134,7 +135,7 @@ std::optional<Polar> lookAtBall(const Tick& tick, std::size_t index, Image& imag
   const NoiseParameters& noise = tick.noise(index);
   if (!ballVisionIsNoisy(noise)) return seen;
   if (!tick.batches.ballDrawn) {
-    tick.draw(tick.batches.ball, NoiseStream::BallVision, 3, ballVisionIsNoisy);
+    tick.draw(tick.batches.ball, ballVisionIsNoisy);
     tick.batches.ballDrawn = true;
   }
   RandomBatch::Sequence random = tick.batches.ball.of(index);
@@ -214,6 +215,10 @@ void unseenLandmarks(const RobotCommand& command, LandmarkPercept& percept) {
   }
 }
 
+bool ballAsLandmarkIsNoisy(const NoiseParameters& noise) {
+  return noise.visionDistance != 0.0 || noise.visionBearing != 0.0;
+}
+
 /// The published VISION_TILT_DEG: the ball's distance as landmark vision sees it, with the whole
 /// front of the body as its view.
 void lookAtBallAsLandmark(const Tick& tick, std::size_t index, Image& image,
@@ -225,12 +230,17 @@ void lookAtBallAsLandmark(const Tick& tick, std::size_t index, Image& image,
     percept.ballPanDeg = unseenBall;
     return;
   }
-  const Polar ball = image.reported(image.ball(), seen, tick.settings().field.ballRadius);
-  CounterRandom random = randomOf(tick, index, NoiseStream::Landmarks);
-  const double distance =
-      std::max(0.0, random.normal(ball.distance, noise.visionDistance * ball.distance));
-  percept.ballTiltDeg = published_frame::cmFromMetres(distance);
-  percept.ballPanDeg = degreesFromRadians(random.normal(ball.bearing, noise.visionBearing));
+  Polar ball = image.reported(image.ball(), seen, tick.settings().field.ballRadius);
+  if (ballAsLandmarkIsNoisy(noise)) {
+    if (!std::exchange(tick.batches.ballAsLandmarkDrawn, true)) {
+      tick.draw(tick.batches.ballAsLandmark, ballAsLandmarkIsNoisy);
+    }
+    RandomBatch::Sequence random = tick.batches.ballAsLandmark.of(index);
+    ball.distance = random.normal(ball.distance, noise.visionDistance * ball.distance);
+    ball.bearing = random.normal(ball.bearing, noise.visionBearing);
+  }
+  percept.ballTiltDeg = published_frame::cmFromMetres(std::max(0.0, ball.distance));
+  percept.ballPanDeg = degreesFromRadians(ball.bearing);
 }
 
 }  // namespace
@@ -239,7 +249,13 @@ std::size_t delayTicks(const WorldState& world, std::size_t index) {
   const SimulationSettings& settings = world.settings;
   const NoiseParameters& noise =
       settings.noise.ofModel ? world.models[index].noise : settings.noise;
+  if (noise.visionDelay == 0.0) return 0;
   return static_cast<std::size_t>(std::lround(noise.visionDelay * settings.tickRate));
+}
+
+void drawSight(Tick& tick, std::span<const RandomBatch::Tick> ahead) {
+  tick.draw(tick.batches.ball, ballVisionIsNoisy, ahead);
+  tick.draw(tick.batches.ballAsLandmark, ballAsLandmarkIsNoisy, ahead);
 }
 
 std::size_t maxDelay(const WorldState& world) {

@@ -17,6 +17,10 @@ std::size_t maxDelay(const WorldState& world);
 /// Makes the ring fit the delays and the robots; moments that it has are kept.
 void resizePast(WorldState& world, RigidBodyState& state);
 
+/// Draws the noise with which all robots see the ball, in the tick itself done by stepVision(), for
+/// ticks `ahead`.
+void drawSight(Tick& tick, std::span<const RandomBatch::Tick> ahead);
+
 /// Moves the head and fills percept.landmarks, .ball, .robots and .searchOn. What is seen is the
 /// world as it was before the vision delay; what is looked for is what the robot wants now, and a
 /// robot that is down sees nothing.

@@ -206,6 +206,17 @@ Result<void> Simulation::restore(const WorldState& state) {
   return {};
 }
 
+void Simulation::exchange(WorldCourse& course) {
+  assert(!m_state.game && course.statistics.size() == robotCount());
+  std::swap(m_state.settings.seed, course.seed);
+  std::swap(m_state.tick, course.tick);
+  std::swap(m_state.score, course.score);
+  std::swap(m_state.clockRunning, course.clockRunning);
+  std::swap(m_state.clockTicks, course.clockTicks);
+  m_state.statistics.swap(course.statistics);
+  m_state.physics.swap(course.physics);
+}
+
 void Simulation::snapshot(Snapshot& out) const {
   out.tick = m_state.tick;
   out.time = static_cast<double>(m_state.tick) / m_state.settings.tickRate;

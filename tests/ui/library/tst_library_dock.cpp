@@ -251,7 +251,7 @@ class TestLibraryDock : public QObject {
     s.choose("removeLibraryFolder");
     QTRY_COMPARE(s.model()->rowCount(), 0);
     QCOMPARE(s.settings.value(QStringLiteral("library/folders")).toStringList(), QStringList());
-    QVERIFY(s.find<QLabel>("emptyLibrary")->text().startsWith(QStringLiteral("Add a folder")));
+    QTRY_VERIFY(s.find<QLabel>("emptyLibrary")->text().startsWith(QStringLiteral("Add a folder")));
     QVERIFY(QFile::exists(match));
   }
 

@@ -355,14 +355,14 @@ class TestNotes : public QObject {
       const double value = (note.from.y + note.to.y) / 2;
       return QPointF(pixel((note.from.x + note.to.x) / 2, 0.0).x(), pane->valueScale().toY(value));
     };
-    QVERIFY(layer->noteAt(middle()) != 0);
+    QTRY_VERIFY(layer->noteAt(middle()) != 0);
     // It stays at its times and values when the plot is zoomed.
     const QPointF before = middle();
     plots->time()->setRange({3.0, 9.0});
     QTRY_VERIFY_WITH_TIMEOUT(pane->timeAxis().shown.begin == 3.0, patience_ms);
     page->refresh();
     QVERIFY(std::abs(middle().x() - before.x()) > 20);
-    QVERIFY(layer->noteAt(middle()) != 0);
+    QTRY_VERIFY(layer->noteAt(middle()) != 0);
     QVERIFY(hasNoteColor(pane->surface()->parentWidget()->grab().toImage(), around(middle())) ||
             layer->isVisible());
     // A drag moves it, and its moment.

@@ -92,7 +92,7 @@ class TestMatchController : public QObject {
 
     // What is refused leaves nothing to undo, and what was done before stays.
     const QSignalSpy refused(&c, &MatchController::errorOccurred);
-    const Error no{ErrorCode::Conflict, "no room"};
+    const Error no{ErrorCode::Conflict, "no room", ""};
     c.edits()->perform({"Move 2", "no", {slow(tl::unexpected(no)), move}});
     history.undoAction()->trigger();
     mayGoOn.release();

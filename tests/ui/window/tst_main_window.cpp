@@ -177,6 +177,13 @@ class TestMainWindow : public QObject {
       Studio s(false, separate, "one-robot");
       auto* label = s.window.findChild<QLabel*>(QStringLiteral("statusProcesses"));
       QTRY_VERIFY_WITH_TIMEOUT(label->text().endsWith(QStringLiteral("in lock-step")), 30'000);
+      // It says so while a past moment is shown, too.
+      QTRY_VERIFY_WITH_TIMEOUT(s.controller.frame()->snapshot.tick > 60, 30'000);
+      const auto* pace = s.window.findChild<QLabel*>(QStringLiteral("statusPace"));
+      s.window.shown()->seek(0.5);
+      QTRY_VERIFY(pace->text().startsWith(QStringLiteral("Viewing 00:00")));
+      QVERIFY2(label->text().endsWith(QStringLiteral("in lock-step")), qPrintable(label->text()));
+      s.window.shown()->goLive();
       s.controller.open(realTimeRobot(folder));
       QTRY_VERIFY_WITH_TIMEOUT(label->text().endsWith(QStringLiteral("running freely")), 30'000);
     }

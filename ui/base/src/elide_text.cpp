@@ -100,8 +100,14 @@ QString elidedList(const QFontMetricsF& metrics, const QString& text, double wid
 
 QString elideName(const QFontMetricsF& metrics, const QString& name, double width) {
   if (metrics.horizontalAdvance(name) <= width) return name;
-  const qsizetype prefix = name.indexOf(QLatin1Char('_'));
-  return metrics.elidedText(prefix > 0 ? name.mid(prefix + 1) : name, Qt::ElideMiddle, width);
+  // The robot stays: without it the rest says nothing.
+  const qsizetype blank = name.indexOf(QLatin1Char(' '));
+  const QString variable = name.left(blank), robot = blank < 0 ? QString() : name.mid(blank);
+  const qsizetype prefix = variable.indexOf(QLatin1Char('_'));
+  const QString rest = prefix > 0 ? variable.mid(prefix + 1) : variable;
+  const double room = width - metrics.horizontalAdvance(robot);
+  const QString shown = metrics.elidedText(rest, Qt::ElideMiddle, std::max(room, 0.0));
+  return shown.size() > 1 ? shown + robot : metrics.elidedText(name, Qt::ElideLeft, width);
 }
 
 QString elideText(const QFontMetricsF& metrics, const QString& text, double width) {

@@ -253,9 +253,7 @@ void StudioStatusBar::showLive(const link::MatchFrame* frame) {
 }
 
 /// A past moment says nothing of how the match goes on meanwhile.
-QString StudioStatusBar::paceText(const link::MatchFrame& shown) const {
-  const FramePtr newest = m_context.controller->frame();
-  const link::MatchFrame& now = newest ? *newest : shown;
+QString StudioStatusBar::paceText(const link::MatchFrame& now) const {
   if (m_context.shown->isLookingBack()) {
     const QString match =
         now.finished ? QStringLiteral("the match is over")
@@ -272,7 +270,9 @@ QString StudioStatusBar::paceText(const link::MatchFrame& shown) const {
 }
 
 void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
-  m_pace->setText(paceText(frame));
+  const FramePtr newest = m_context.controller->frame();
+  const link::MatchFrame& now = newest ? *newest : frame;
+  m_pace->setText(paceText(now));
   const auto robots = frame.robots.size();
   m_world->setText(teamsText(frame) + QStringLiteral("%1, tick %2, seed %3")
                                           .arg(robots == 1
@@ -283,10 +283,10 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
   switch (m_context.controller->cognition()) {
     case link::Cognition::Separate:
       m_processes->setText(
-          !frame.waitsFor.empty()
-              ? QStringLiteral("Lock-step waits for %1").arg(QString::fromStdString(frame.waitsFor))
-          : frame.inLockStep ? QStringLiteral("Separate processes, in lock-step")
-                             : QStringLiteral("Separate processes, running freely"));
+          !now.waitsFor.empty()
+              ? QStringLiteral("Lock-step waits for %1").arg(QString::fromStdString(now.waitsFor))
+          : now.inLockStep ? QStringLiteral("Separate processes, in lock-step")
+                           : QStringLiteral("Separate processes, running freely"));
       break;
     case link::Cognition::Inline:
       m_processes->setText(QStringLiteral("Processes run inside the studio"));
@@ -295,13 +295,13 @@ void StudioStatusBar::showMatch(const link::MatchFrame& frame) {
       m_processes->setText(QStringLiteral("Waiting for team programs"));
       break;
   }
-  if (frame.slowestTeamProgram) {
+  if (now.slowestTeamProgram) {
     m_processes->setText(QStringLiteral("%1 · team programs reach ×%2")
-                             .arg(m_processes->text(), numberText(*frame.slowestTeamProgram, 1)));
+                             .arg(m_processes->text(), numberText(*now.slowestTeamProgram, 1)));
   }
-  if (frame.matchNumber.value_or(0) > 0) {
+  if (now.matchNumber.value_or(0) > 0) {
     m_processes->setText(
-        QStringLiteral("Match %1 · %2").arg(*frame.matchNumber).arg(m_processes->text()));
+        QStringLiteral("Match %1 · %2").arg(*now.matchNumber).arg(m_processes->text()));
   }
 }
 

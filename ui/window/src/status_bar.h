@@ -56,7 +56,7 @@ class StudioStatusBar : public QStatusBar {
   void showSource();
   void hideEmpty();
   QPalette alarmPalette() const;
-  QString paceText(const link::MatchFrame& shown) const;
+  QString paceText(const link::MatchFrame& now) const;
   void showMatch(const link::MatchFrame& frame);
   void showMemory();
   void showShared();

@@ -19,7 +19,9 @@ constexpr StepTeam::Seconds minShared(120e-6);
 
 Result<void> StepTeam::start(int threads) {
   try {
-    for (int i = 1; i < threads; ++i) m_threads.emplace_back([this] { serve(); });
+    for (int i = 1; i < threads; ++i) {
+      m_threads.emplace_back([this, i] { serve(static_cast<std::size_t>(i)); });
+    }
   } catch (const std::system_error& error) {
     return failure(ErrorCode::SystemError, "the system allows only " +
                                                std::to_string(m_threads.size() + 1) +
@@ -43,17 +45,14 @@ bool StepTeam::isWorthSharing(std::size_t pieces, std::size_t units, Seconds per
 }
 
 void StepTeam::run(std::size_t pieces, std::size_t units, const Work& work) {
-  if (m_threads.empty()) {
-    for (std::size_t i = 0; i < pieces; ++i) work(i, pieces);
-    return;
-  }
+  if (m_threads.empty()) return work(0, 0, pieces);
   const auto begin = RealTime::now();
   const auto remember = [&](std::size_t done) {
     const auto all = static_cast<double>(done * units);
     if (all > 0.0) m_perUnit = Seconds(RealTime::now() - begin) / all;
   };
   if (!isWorthSharing(pieces, units, m_perUnit)) {
-    for (std::size_t i = 0; i < pieces; ++i) work(i, pieces);
+    work(0, 0, pieces);
     return remember(pieces);
   }
   {
@@ -66,12 +65,12 @@ void StepTeam::run(std::size_t pieces, std::size_t units, const Work& work) {
     ++m_round;
   }
   m_begun.notify_all();
-  remember(takePieces());
+  remember(takePieces(0));
   std::unique_lock lock(m_mutex);
   m_done.wait(lock, [this] { return m_busy == 0; });
 }
 
-void StepTeam::serve() {
+void StepTeam::serve(std::size_t worker) {
   std::size_t round = 0;
   while (true) {
     {
@@ -80,19 +79,19 @@ void StepTeam::serve() {
       if (m_ends) return;
       round = m_round;
     }
-    takePieces();
+    takePieces(worker);
     const std::lock_guard lock(m_mutex);
     if (--m_busy == 0) m_done.notify_one();
   }
 }
 
-std::size_t StepTeam::takePieces() {
+std::size_t StepTeam::takePieces(std::size_t worker) {
   std::size_t taken = 0;
   while (true) {
     const std::size_t first = m_next.fetch_add(m_atOnce);
     if (first >= m_pieces) return taken;
     const std::size_t last = std::min(first + m_atOnce, m_pieces);
-    for (std::size_t i = first; i < last; ++i) (*m_work)(i, last);
+    (*m_work)(worker, first, last);
     taken += last - first;
   }
 }

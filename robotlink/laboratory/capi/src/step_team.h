@@ -3,8 +3,7 @@
 
 // Threads that share work on numbered pieces: run() gives every piece to one of them, the caller's
 // included, and returns when all are done. Which thread takes which pieces is nobody's business, so
-// pieces must not know each other, but for those up to `end`, which the same thread takes next.
-// Owned and used by one thread.
+// the results of pieces must not depend on each other. Owned and used by one thread.
 
 #include <atomic>
 #include <chrono>
@@ -21,7 +20,8 @@ namespace pitchboard::link {
 
 class StepTeam {
  public:
-  using Work = std::function<void(std::size_t piece, std::size_t end)>;
+  /// Does the pieces from `first` up to `last`. `worker`: which thread does, from 0.
+  using Work = std::function<void(std::size_t worker, std::size_t first, std::size_t last)>;
 
   StepTeam() = default;
   ~StepTeam();
@@ -30,6 +30,8 @@ class StepTeam {
 
   /// `threads` in all, the caller's included. Fails when the system gives no more; once only.
   Result<void> start(int threads);
+  /// How many threads work, the caller's included.
+  std::size_t workers() const { return m_threads.size() + 1; }
   /// `units`: how much there is to do in each piece, such as ticks. What takes less time than
   /// waking the others, judged by what a unit took last time, the caller does alone.
   void run(std::size_t pieces, std::size_t units, const Work& work);
@@ -39,9 +41,9 @@ class StepTeam {
   static bool isWorthSharing(std::size_t pieces, std::size_t units, Seconds perUnit);
 
  private:
-  void serve();
+  void serve(std::size_t worker);
   /// Returns how many it took.
-  std::size_t takePieces();
+  std::size_t takePieces(std::size_t worker);
 
   std::mutex m_mutex;
   std::condition_variable m_begun, m_done;

@@ -7,10 +7,12 @@
 // tests/data/world_columns.txt. Units are those of the values: percepts as on the blackboard, the
 // truth in metres, seconds and radians. Any thread.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include <simcore/world/robot_io.h>
@@ -65,8 +67,9 @@ inline constexpr std::array<SeenNames, sim::Percepts::maxSeenRobots> seenNames{{
 }};
 static_assert(!seenNames.back().distance.empty(), "every robot that can be seen has its names");
 
+/// `robots`: how many of the robots that can be seen have their columns.
 template <class Visit>
-void visitPercepts(const sim::Percepts& p, Visit&& visit) {
+void visitPercepts(const sim::Percepts& p, Visit&& visit, std::size_t robots = seenNames.size()) {
   const auto& control = p.control;
   visit("control_action", "code that control carries out (CONTROL_ACTION)", control.action);
   visit("control_moving", "1 while the body moves (CONTROL_MOVING)", control.moving);
@@ -98,7 +101,7 @@ void visitPercepts(const sim::Percepts& p, Visit&& visit) {
   visit("ball_distance_cm", "cm (VISION_BALL_DIST)", ball.distanceCm);
   visit("ball_angle_deg", "degrees to the left (VISION_BALL_ANGLE)", ball.angleDeg);
   visit("ball_pan_deg", "degrees to the left (VISION_PAN_DEG)", ball.panDeg);
-  for (std::size_t i = 0; i < seenNames.size(); ++i) {
+  for (std::size_t i = 0; i < std::min(robots, seenNames.size()); ++i) {
     const auto& seen = p.robots[i];
     visit(seenNames[i].distance, "cm to this robot of the field (VISION_RBTnn_DIST)",
           seen ? seen->distanceCm : nothing);
@@ -108,6 +111,8 @@ void visitPercepts(const sim::Percepts& p, Visit&& visit) {
   visit("search_on", "DECISION_SEARCH_ON as vision left it", p.searchOn);
   visit("voltage", "tenths of a volt (VOLTAGE)", p.voltage);
 }
+/// How many columns follow those of the robots.
+inline constexpr std::size_t behindSeen = 2;
 
 template <class Visit>
 void visitRobot(const sim::RobotSnapshot& r, Visit&& visit) {
@@ -151,5 +156,26 @@ void visitGame(const sim::Snapshot& s, const sim::WorldState& world, int finishe
 
 inline constexpr std::array<std::string_view, 4> finishReasons{"goal", "ball_out", "duration",
                                                                "full_time"};
+/// Place of the reason, from 1; 0 if it is empty.
+inline int finishNumber(std::string_view reason) {
+  const auto found = std::ranges::find(finishReasons, reason);
+  return found == finishReasons.end() ? 0 : static_cast<int>(found - finishReasons.begin()) + 1;
+}
+/// The same text, which lasts; empty if there is no such reason.
+inline std::string_view finishReason(std::string_view text) {
+  const auto found = std::ranges::find(finishReasons, text);
+  return found == finishReasons.end() ? std::string_view() : *found;
+}
+
+/// Fills rows one after another.
+struct Filling {
+  double* out;
+  template <class Value>
+  void operator()(std::string_view /*name*/, std::string_view /*words*/, const Value& value) {
+    *out++ = number(value);
+  }
+  void leaveOut(std::size_t count) { out = std::fill_n(out, count, nothing); }
+  void copy(std::span<const double> values) { out = std::ranges::copy(values, out).out; }
+};
 
 }  // namespace pitchboard::link::columns

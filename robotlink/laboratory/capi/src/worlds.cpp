@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include <base/lined_json.h>
 #include <base/try.h>
 
+#include "match_worlds.h"
+#include "steered_worlds.h"
 #include "step_team.h"
-#include "world.h"
 #include "world_columns.h"
 
 namespace pitchboard::link {
@@ -55,57 +57,68 @@ bool fitsInt(double value) {
          value <= std::numeric_limits<std::int32_t>::max() && value == std::floor(value);
 }
 
-/// Fills rows one after another.
-struct Filling {
-  double* out;
-  template <class Value>
-  void operator()(std::string_view /*name*/, std::string_view /*meaning*/, const Value& value) {
-    *out++ = columns::number(value);
-  }
-};
-
 }  // namespace
 
 struct Worlds::Parts {
   Scenario scenario;
   MatchOptions options;
-  std::vector<World> worlds;
+  std::size_t count = 0;
   std::vector<RobotId> robots;
   RobotVariables variables;
-  /// Of worlds that remember nothing but their moment: from it they begin again. What the scenario
-  /// writes at once stands there, and is left out of `later`: it would be written once more.
-  std::optional<Moment> beginning;
-  Scenario later;
   StepTeam team;
+  // One of them is there.
+  std::unique_ptr<SteeredWorlds> steered;
+  std::unique_ptr<MatchWorlds> matches;
   mutable sim::Snapshot seen;  // scratch
 
-  std::size_t robotRows() const { return worlds.size() * robots.size(); }
-
-  Result<World> make(std::uint64_t seed) const {
-    if (!beginning) return World::create(scenario, options, seed);
-    auto world = World::create(later, options, seed);
-    if (world) (void)world->beginAgain(*beginning, seed);
-    return world;
+  std::size_t robotRows() const { return count * robots.size(); }
+  WorldGroup& worlds() const {
+    return steered ? static_cast<WorldGroup&>(*steered) : static_cast<WorldGroup&>(*matches);
   }
 
-  /// A world is determined by its saved state and seed only if it has no processes and no referee.
-  bool remembersNothing() const {
-    return !scenario.settings.referee &&
-           std::ranges::all_of(scenario.robots,
-                               [](const ScenarioRobot& r) { return r.behaviour == noBehaviour; });
+  Result<void> makeSteered() {
+    steered = TRY(SteeredWorlds::create(scenario, options, count, team.workers()));
+    return {};
   }
-  void findBeginning() {
-    beginning.reset();
-    if (!remembersNothing()) return;
-    if (auto first = make(scenario.settings.seed)) beginning = first->snapshot().moment;
-    later = scenario;
-    std::erase_if(later.writes, [](const BlackboardWrite& write) { return write.time <= 0.0; });
+  Result<void> makeMatches() {
+    auto made = std::make_unique<MatchWorlds>(scenario, options);
+    for (std::size_t i = 0; i < count; ++i) TRY(made->add(scenario.settings.seed + i));
+    matches = std::move(made);
+    return {};
+  }
+  /// Continues the same worlds as matches.
+  Result<void> becomeMatches() {
+    if (matches) return {};
+    TRY(makeMatches());
+    for (std::size_t i = 0; i < count; ++i) TRY(matches->restore(i, steered->snapshot(i)));
+    steered.reset();
+    return {};
+  }
+  /// The other way round, if that is possible.
+  Result<void> becomeSteered() {
+    TRY(makeSteered());
+    if (!steered) return {};
+    TRY(steered->take(*matches));
+    matches.reset();
+    return {};
+  }
+
+  /// Writes these variables of each robot, except for values that say `keep`.
+  void writeInts(std::span<IntVar> variables, std::span<const std::int32_t> values) {
+    for (IntVar& variable : variables) variable = worlds().placed(variable);
+    const std::int32_t* from = values.data();
+    for (Blackboard& board : worlds().boards()) {
+      for (const IntVar variable : variables) {
+        const std::int32_t value = *from++;
+        if (value != keep) board.write(variable, value);
+      }
+    }
   }
 
   Result<void> checkWorld(int world) const {
-    if (world == all || (world >= 0 && static_cast<std::size_t>(world) < worlds.size())) return {};
+    if (world == all || (world >= 0 && static_cast<std::size_t>(world) < count)) return {};
     return failure(ErrorCode::NotFound, "there is no world " + std::to_string(world) +
-                                            "; there are " + std::to_string(worlds.size()) +
+                                            "; there are " + std::to_string(count) +
                                             ", counted from 0");
   }
   Result<void> checkRobot(RobotId robot) const {
@@ -124,14 +137,13 @@ struct Worlds::Parts {
     }
     return {};
   }
-  /// Calls change(world, its index) for one or all, until one fails.
+  /// Calls change(index) for one or all, until one fails.
   template <class Change>
   Result<void> changeEach(int world, const Change& change) {
     TRY(checkWorld(world));
-    for (std::size_t i = 0; i < worlds.size(); ++i) {
-      if (world != all && static_cast<std::size_t>(world) != i) continue;
-      TRY(change(worlds[i], i));
-    }
+    const std::size_t first = world == all ? 0 : static_cast<std::size_t>(world);
+    const std::size_t last = world == all ? count : first + 1;
+    for (std::size_t i = first; i < last; ++i) TRY(change(i));
     return {};
   }
 };
@@ -160,19 +172,15 @@ Result<Worlds> Worlds::create(const Scenario& scenario, const WorldsOptions& opt
   }
   parts->options.cognition = Cognition::Inline;
   if (options.particles) parts->options.process.particles = *options.particles;
-  parts->findBeginning();
-  parts->worlds.reserve(static_cast<std::size_t>(options.count));
-  for (int i = 0; i < options.count; ++i) {
-    parts->worlds.push_back(
-        TRY(parts->make(parts->scenario.settings.seed + static_cast<std::uint64_t>(i))));
-  }
-  const int useful = std::min(options.threads, options.count);
-  TRY(parts->team.start(useful));
+  parts->count = static_cast<std::size_t>(options.count);
+  TRY(parts->team.start(std::min(options.threads, options.count)));
+  TRY(parts->makeSteered());
+  if (!parts->steered) TRY(parts->makeMatches());
   return Worlds(std::move(parts));
 }
 
 std::size_t Worlds::count() const {
-  return m_parts->worlds.size();
+  return m_parts->count;
 }
 
 std::size_t Worlds::robots() const {
@@ -189,24 +197,18 @@ std::span<const RobotId> Worlds::robotIds() const {
 
 Result<void> Worlds::setBehaviour(RobotId robot, const std::string& behaviour) {
   TRY(m_parts->checkRobot(robot));
-  auto changed = m_parts->changeEach(all, [&](World& world, std::size_t /*index*/) {
-    return world.match().robots().setBehaviour(robot, behaviour);
-  });
-  if (!changed) return changed;
+  if (m_parts->steered && behaviour == noBehaviour) return {};
+  TRY(m_parts->becomeMatches());
+  TRY(m_parts->matches->setBehaviour(robot, behaviour));
   for (ScenarioRobot& one : m_parts->scenario.robots) {
     if (one.identity.id == robot) one.behaviour = behaviour;
   }
-  for (World& world : m_parts->worlds) world.mustBeMadeAnew();
-  m_parts->findBeginning();
-  return {};
+  return m_parts->becomeSteered();
 }
 
 Result<void> Worlds::reset(int world, std::uint64_t seed) {
-  return m_parts->changeEach(world, [&](World& one, std::size_t index) -> Result<void> {
-    const std::uint64_t own = world == all ? seed + index : seed;
-    if (one.beginsQuickly() && one.beginAgain(*m_parts->beginning, own)) return {};
-    one = TRY(m_parts->make(own));
-    return {};
+  return m_parts->changeEach(world, [&](std::size_t i) {
+    return m_parts->worlds().reset(i, world == all ? seed + i : seed);
   });
 }
 
@@ -220,21 +222,12 @@ Result<void> Worlds::reset(std::span<const int> worlds, std::span<const std::uin
 
 Result<void> Worlds::step(int ticks) {
   TRY(checkRange("the number of ticks", ticks, maxTicks));
-  auto& worlds = m_parts->worlds;
-  // So few stay in a core's cache by themselves.
-  constexpr std::size_t few = 200;
-  const bool many = worlds.size() > few;
-  m_parts->team.run(worlds.size(), static_cast<std::size_t>(ticks),
-                    [&](std::size_t i, std::size_t end) {
-                      if (many && i + 2 < end) worlds[i + 2].fetchSelf();
-                      if (many && i + 1 < end) worlds[i + 1].fetchParts();
-                      worlds[i].play(ticks);
-                    });
+  m_parts->worlds().step(m_parts->team, ticks);
   return {};
 }
 
 std::string_view Worlds::finishedBy(std::size_t world) const {
-  return m_parts->worlds[world].finishedBy();
+  return m_parts->worlds().finishedBy(world);
 }
 
 std::size_t Worlds::sizeOf(WorldArray array) const {
@@ -245,27 +238,24 @@ std::size_t Worlds::sizeOf(WorldArray array) const {
 Result<void> Worlds::read(WorldArray array, std::span<double> out) const {
   constexpr std::array<std::string_view, worldArrays> names{"percepts", "robots", "game"};
   TRY(checkSize(names[static_cast<std::size_t>(array)], out.size(), sizeOf(array)));
-  Filling filling{out.data()};
-  for (const World& world : m_parts->worlds) {
-    if (array == WorldArray::Percepts) {
-      const std::size_t row = columnsOf(array).size();
-      for (const sim::Percepts& percepts : world.match().percepts()) {
-        if (world.sensed()) {
-          columns::visitPercepts(percepts, filling);
-        } else {
-          filling.out = std::fill_n(filling.out, row, columns::nothing);
-        }
+  WorldGroup& worlds = m_parts->worlds();
+  if (array == WorldArray::Percepts) {
+    worlds.readPercepts(out);
+    return {};
+  }
+  columns::Filling filling{out.data()};
+  for (std::size_t i = 0; i < count(); ++i) {
+    TRY(worlds.withSimulation(i, [&](const sim::Simulation& simulation) -> Result<void> {
+      sim::Snapshot& seen = m_parts->seen;
+      simulation.snapshot(seen);
+      if (array == WorldArray::Game) {
+        columns::visitGame(seen, simulation.state(), columns::finishNumber(worlds.finishedBy(i)),
+                           filling);
+      } else {
+        for (const sim::RobotSnapshot& robot : seen.robots) columns::visitRobot(robot, filling);
       }
-      continue;
-    }
-    const sim::Simulation& simulation = world.match().simulation();
-    sim::Snapshot& seen = m_parts->seen;
-    simulation.snapshot(seen);
-    if (array == WorldArray::Game) {
-      columns::visitGame(seen, simulation.state(), world.finishedNumber(), filling);
-    } else {
-      for (const sim::RobotSnapshot& robot : seen.robots) columns::visitRobot(robot, filling);
-    }
+      return {};
+    }));
   }
   return {};
 }
@@ -274,10 +264,11 @@ Result<void> Worlds::readBoards(std::span<std::uint32_t> out) const {
   const std::size_t rows = m_parts->robotRows();
   if (auto fits = checkSize("blackboards", out.size(), rows * Blackboard::words); !fits)
     return fits;
-  std::size_t at = 0;
-  for (const World& world : m_parts->worlds) {
-    for (std::size_t i = 0; i < robots(); ++i, at += Blackboard::words) {
-      world.board(i).copyWords(out.subspan(at).first<Blackboard::words>());
+  const WorldGroup& worlds = m_parts->worlds();
+  std::uint32_t* to = out.data();
+  for (const Blackboard& board : worlds.boards()) {
+    for (int word = 0; word < Blackboard::words; ++word) {
+      *to++ = std::bit_cast<std::uint32_t>(board.read(worlds.placed(IntVar{word})));
     }
   }
   return {};
@@ -287,14 +278,13 @@ Result<void> Worlds::readVariables(std::span<const Variable> variables,
                                    std::span<double> out) const {
   const std::size_t rows = m_parts->robotRows();
   TRY(checkSize("variables", out.size(), rows * variables.size()));
+  const std::vector<Variable> placed = m_parts->worlds().placed(variables);
   double* to = out.data();
-  for (const World& world : m_parts->worlds) {
-    for (std::size_t i = 0; i < robots(); ++i) {
-      for (const Variable& variable : variables) {
-        *to++ = variable.type == VariableType::Int
-                    ? static_cast<double>(world.board(i).read(IntVar{variable.index}))
-                    : static_cast<double>(world.board(i).read(FloatVar{variable.index}));
-      }
+  for (const Blackboard& board : m_parts->worlds().boards()) {
+    for (const Variable& variable : placed) {
+      *to++ = variable.type == VariableType::Int
+                  ? static_cast<double>(board.read(IntVar{variable.index}))
+                  : static_cast<double>(board.read(FloatVar{variable.index}));
     }
   }
   return {};
@@ -302,8 +292,12 @@ Result<void> Worlds::readVariables(std::span<const Variable> variables,
 
 Result<void> Worlds::readHashes(std::span<std::uint64_t> out) const {
   TRY(checkSize("hashes", out.size(), count()));
-  std::transform(m_parts->worlds.begin(), m_parts->worlds.end(), out.begin(),
-                 [](const World& world) { return world.match().simulation().hash(); });
+  for (std::size_t i = 0; i < count(); ++i) {
+    TRY(m_parts->worlds().withSimulation(i, [&](const sim::Simulation& simulation) -> Result<void> {
+      out[i] = simulation.hash();
+      return {};
+    }));
+  }
   return {};
 }
 
@@ -319,17 +313,16 @@ Result<void> Worlds::writeVariables(std::span<const Variable> variables,
                      variable.name);
     }
   }
+  const std::vector<Variable> placed = m_parts->worlds().placed(variables);
   const double* from = values.data();
-  for (World& world : m_parts->worlds) {
-    for (std::size_t i = 0; i < robots(); ++i) {
-      for (const Variable& variable : variables) {
-        const double value = *from++;
-        if (std::isnan(value)) continue;
-        if (variable.type == VariableType::Int) {
-          world.board(i).write(IntVar{variable.index}, static_cast<int>(value));
-        } else {
-          world.board(i).write(FloatVar{variable.index}, static_cast<float>(value));
-        }
+  for (Blackboard& board : m_parts->worlds().boards()) {
+    for (const Variable& variable : placed) {
+      const double value = *from++;
+      if (std::isnan(value)) continue;
+      if (variable.type == VariableType::Int) {
+        board.write(IntVar{variable.index}, static_cast<int>(value));
+      } else {
+        board.write(FloatVar{variable.index}, static_cast<float>(value));
       }
     }
   }
@@ -338,45 +331,31 @@ Result<void> Worlds::writeVariables(std::span<const Variable> variables,
 
 Result<void> Worlds::writeCommands(std::span<const std::int32_t> commands) {
   const RobotVariables& v = m_parts->variables;
-  const std::array variables{v.decisionActionA,      v.decisionActionB,      v.decisionSearchOn,
-                             v.decisionActionVision, v.decisionLocalization, v.imuReset};
-  const std::size_t rows = m_parts->robotRows();
-  if (auto fits = checkSize("commands", commands.size(), rows * variables.size()); !fits)
-    return fits;
-  const std::int32_t* from = commands.data();
-  for (World& world : m_parts->worlds) {
-    for (std::size_t i = 0; i < robots(); ++i) {
-      for (const IntVar variable : variables) {
-        const std::int32_t value = *from++;
-        if (value != keep) world.board(i).write(variable, value);
-      }
-    }
-  }
+  std::array variables{v.decisionActionA,      v.decisionActionB,      v.decisionSearchOn,
+                       v.decisionActionVision, v.decisionLocalization, v.imuReset};
+  TRY(checkSize("commands", commands.size(), m_parts->robotRows() * variables.size()));
+  m_parts->writeInts(variables, commands);
   return {};
 }
 
 Result<void> Worlds::writeActions(std::span<const std::int32_t> actions) {
   TRY(checkSize("actions", actions.size(), m_parts->robotRows()));
-  const IntVar variable = m_parts->variables.decisionActionA;
-  const std::int32_t* from = actions.data();
-  for (World& world : m_parts->worlds) {
-    for (std::size_t i = 0; i < robots(); ++i) {
-      const std::int32_t value = *from++;
-      if (value != keep) world.board(i).write(variable, value);
-    }
-  }
+  std::array variables{m_parts->variables.decisionActionA};
+  m_parts->writeInts(variables, actions);
   return {};
 }
 
 Result<void> Worlds::placeRobot(int world, RobotId robot, const Pose& pose) {
-  return m_parts->changeEach(world, [&](World& one, std::size_t /*index*/) {
-    return one.match().simulation().placeRobot(robot, pose);
+  return m_parts->changeEach(world, [&](std::size_t i) {
+    return m_parts->worlds().withSimulation(
+        i, [&](sim::Simulation& simulation) { return simulation.placeRobot(robot, pose); });
   });
 }
 
 Result<void> Worlds::placeBall(int world, const Point& place, const Velocity& velocity) {
-  return m_parts->changeEach(world, [&](World& one, std::size_t /*index*/) {
-    return one.match().simulation().placeBall(place, velocity);
+  return m_parts->changeEach(world, [&](std::size_t i) {
+    return m_parts->worlds().withSimulation(
+        i, [&](sim::Simulation& simulation) { return simulation.placeBall(place, velocity); });
   });
 }
 
@@ -404,12 +383,14 @@ Result<WorldSnapshot> Worlds::snapshot(int world) const {
   if (world == all) {
     return failure(ErrorCode::InvalidArgument, "a snapshot belongs to one world; give its number");
   }
-  return m_parts->worlds[static_cast<std::size_t>(world)].snapshot();
+  return m_parts->worlds().snapshot(static_cast<std::size_t>(world));
 }
 
 Result<void> Worlds::restore(int world, const WorldSnapshot& snapshot) {
-  return m_parts->changeEach(
-      world, [&](World& one, std::size_t /*index*/) { return one.restore(snapshot); });
+  TRY(m_parts->checkWorld(world));
+  if (!SteeredWorlds::canRestore(snapshot)) TRY(m_parts->becomeMatches());
+  return m_parts->changeEach(world,
+                             [&](std::size_t i) { return m_parts->worlds().restore(i, snapshot); });
 }
 
 Result<void> Worlds::restore(std::span<const int> worlds, std::span<const std::uint64_t> seeds,

@@ -40,7 +40,11 @@ int turnOf(std::string_view process) {
 }
 
 Feed::Feed(const VariableCatalog& catalog, std::span<const std::string> processes,
-           std::span<const std::string> patterns) {
+           std::span<const std::string> patterns, std::span<const std::string> fed) {
+  const auto isAmong = [](std::span<const std::string> some, const std::string& name) {
+    return std::ranges::any_of(
+        some, [&](const std::string& pattern) { return fitsWildcard(pattern, name); });
+  };
   const VariableMeanings& meanings = VariableMeanings::published();
   for (const Variable& variable : catalog.variables()) {
     if (isAnnouncement(catalog, variable)) continue;  // no value of the robot: see RecordedCycles
@@ -49,11 +53,10 @@ Feed::Feed(const VariableCatalog& catalog, std::span<const std::string> processe
     one.variable = variable;
     one.word = variable.index + (isInt ? 0 : Blackboard::floatOffset);
     one.writers = meanings.writers(variable.name);
-    const bool writes = isOneOf(processes, one.writers.writer) ||
-                        std::ranges::any_of(patterns, [&](const std::string& pattern) {
-                          return fitsWildcard(pattern, variable.name);
-                        });
-    const bool alsoWrites = isOneOf(processes, one.writers.alsoBy);
+    const bool isFed = isAmong(fed, variable.name);
+    const bool writes =
+        !isFed && (isOneOf(processes, one.writers.writer) || isAmong(patterns, variable.name));
+    const bool alsoWrites = !isFed && isOneOf(processes, one.writers.alsoBy);
     one.isOwn = writes || alsoWrites;
     one.isSense = isSenseName(one.writers.writer);
     one.writerTurn = turnOf(one.writers.writer);

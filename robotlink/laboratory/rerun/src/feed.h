@@ -28,9 +28,10 @@ constexpr int lastTurn = 100;
 
 class Feed {
  public:
-  /// `processes` are chosen; `patterns` name more variables that they write.
+  /// `processes` are chosen; `patterns` name more variables that they write, and `fed` those of
+  /// theirs that somebody else wrote in this recording.
   Feed(const VariableCatalog& catalog, std::span<const std::string> processes,
-       std::span<const std::string> patterns);
+       std::span<const std::string> patterns, std::span<const std::string> fed = {});
 
   /// Finds the columns of the recorded robot.
   void setColumns(const telemetry::GroupInfo& group);

@@ -22,6 +22,10 @@ ProcessOptions optionsOf(const RerunChoice& choice, const RerunRobot& robot) {
   options.shirt = robot.shirt;
   options.keepsMemory = false;
   options.teamChannel = robot.teamChannel;
+  options.refereeTeam = robot.refereeTeam;
+  options.refereeDatagrams = robot.refereeDatagrams;
+  options.announceSetPlay = robot.announceSetPlay;
+  options.sends = false;
   return options;
 }
 

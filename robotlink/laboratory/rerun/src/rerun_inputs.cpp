@@ -9,6 +9,7 @@
 #include <base/try.h>
 #include <base/wildcard.h>
 
+#include "message_feed.h"
 #include "team_mates.h"
 
 namespace pitchboard::link {
@@ -60,9 +61,14 @@ std::string whyNotAgain(const telemetry::SessionReader& session, const RecordedR
   if (!choice.isInside || more.empty()) return {};
   const std::string gets = choice.process + " also gets " + std::string(more);
   if (choice.process != "team") {
-    return gets +
-           ", which only a separate program can be sent again, so ours cannot run; name yours: " +
-           choice.process + "=PROGRAM.";
+    if (recorded.scenario) {
+      return gets + ", which in a simulated match the match itself hands to its robots.";
+    }
+    return MessageFeed::refereeTeam(session, recorded)
+               ? std::string()
+               : gets +
+                     ", and this recording has none for this robot's team; record --live receives "
+                     "them.";
   }
   return TeamMates::areRecorded(session, recorded)
              ? std::string()

@@ -33,6 +33,10 @@ struct RerunRobot {
   std::uint64_t seed = 1;
   std::optional<bool> facesLeft;
   std::shared_ptr<TeamChannel> teamChannel{};  ///< team: where messages come from
+  // communication: as in ProcessOptions.
+  std::optional<int> refereeTeam{};
+  std::function<bool(telemetry::DatagramBatch&)> refereeDatagrams{};
+  bool announceSetPlay = false;
 };
 
 class RerunProgram {

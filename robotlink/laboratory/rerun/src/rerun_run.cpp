@@ -10,6 +10,7 @@
 #include <base/time_text.h>
 #include <base/try.h>
 #include <base/wildcard.h>
+#include <robotlink/cognition/referee_orders.h>
 #include <robotlink/match/due_ticks.h>
 #include <robotlink/session/session_checkpoint.h>
 
@@ -22,6 +23,7 @@ using RerunSeconds = std::chrono::duration<double>;
 constexpr double partLength = 5.0;   // s of the session that are read at once
 constexpr double freeWarmUp = 10.0;  // s, of programs that are not in lock-step
 constexpr double freeSlack = 0.5;    // s
+constexpr double packetSlack = 0.2;  // s: some cycles of communication
 constexpr double maxGap = 2.0;       // s without a row that is played through
 constexpr auto lookEvery = 20ms;     // at programs, progress and cancelling
 
@@ -52,17 +54,6 @@ Result<void> RerunRun::prepare() {
   }
   m_inputs = TRY(checkInputs(m_recorded, m_chosen.choices, *m_feed, exact));
   for (const std::string& sentence : m_inputs.notes) note(sentence);
-  const auto hears = [](const RerunChoice& choice) {
-    return !choice.isInside && hearsMessages(choice.process);
-  };
-  const auto listener = std::ranges::find_if(m_chosen.choices, hears);
-  if (listener == m_chosen.choices.end()) return {};
-  if (MessageFeed::count(m_session) == 0) {
-    note("The recording has no datagrams, so " + listener->process +
-         " receives nothing by UDP from the referee and from other robots.");
-    return {};
-  }
-  m_messages.emplace(TRY(MessageFeed::start(m_session, m_recorded)));
   return {};
 }
 
@@ -112,7 +103,8 @@ Result<void> RerunRun::choose() {
   for (const std::string& sentence : m_chosen.notes) note(sentence);
   std::vector<std::string> names;
   for (const RerunProcess& process : m_chosen.processes) names.push_back(process.name);
-  m_feed.emplace(m_recorded.catalog, names, m_options.writes);
+  const std::vector<std::string> fed = TRY(hearMessages());
+  m_feed.emplace(m_recorded.catalog, names, m_options.writes, fed);
   m_feed->setColumns(m_session.groups()[m_recorded.group].info);
   const BehaviourInfo* behaviour = findBehaviour(m_recorded.robot.behaviour);
   const Variable* target = m_recorded.catalog.find("DECISION_TARGET");
@@ -126,6 +118,40 @@ Result<void> RerunRun::choose() {
   m_mates.emplace(m_session, m_recorded);
   m_recorded.robot.teamChannel = m_mates->channel();
   return {};
+}
+
+/// Lets the programs hear what the robot heard. Returns the variables of chosen processes that
+/// these do not write.
+Result<std::vector<std::string>> RerunRun::hearMessages() {
+  std::vector<std::string> fed;
+  std::string separate;
+  bool inside = false;
+  for (const RerunChoice& choice : m_chosen.choices) {
+    if (!choice.isInside && hearsMessages(choice.process)) separate = choice.process;
+    inside |= choice.isInside && choice.process == "communication";
+  }
+  if (inside) {
+    RerunRobot& robot = m_recorded.robot;
+    robot.refereeTeam = MessageFeed::refereeTeam(m_session, m_recorded);
+    robot.announceSetPlay = MessageFeed::tellsSetPlay(m_session, m_recorded);
+    const std::size_t told = robot.announceSetPlay ? RefereeVariables::names.size() : 1;
+    const auto ours = std::span(RefereeVariables::names).first(told);
+    for (const Variable& one : m_recorded.catalog.variables()) {
+      const bool isRobotNumber = one.name == "ROBOT_NUMBER";
+      if (VariableMeanings::published().writers(one.name).writer != "communication") continue;
+      if (isRobotNumber || std::ranges::find(ours, one.name) != ours.end()) continue;
+      fed.push_back(one.name);
+    }
+  }
+  if (!separate.empty() && MessageFeed::count(m_session) == 0) {
+    note("The recording has no datagrams, so " + separate +
+         " receives nothing by UDP from the referee and from other robots.");
+    separate.clear();
+  }
+  if (!inside && separate.empty()) return fed;
+  m_messages.emplace(TRY(MessageFeed::start(m_session, m_recorded, !separate.empty())));
+  if (inside) m_recorded.robot.refereeDatagrams = m_messages->refereeDatagrams();
+  return fed;
 }
 
 bool RerunRun::hasSeparate() const {
@@ -314,9 +340,11 @@ Result<void> RerunRun::startPrograms() {
   for (const auto& program : m_programs) TRY(program->awaitReady());
   const bool lockStep =
       std::ranges::all_of(m_programs, [](const auto& program) { return program->inLockStep(); });
-  m_slack = m_options.slack.value_or(lockStep ? 0.0 : freeSlack);
+  // Packets have the time at which the recording computer received them, not the robot.
+  const bool hears = m_recorded.robot.refereeDatagrams != nullptr;
+  m_slack = m_options.slack.value_or(!lockStep ? freeSlack : hears ? packetSlack : 0.0);
   if (!lockStep) m_feed->setFree();
-  if (!lockStep) m_slack = std::max(m_slack, 2.0 * m_recorded.rowInterval);
+  if (!lockStep || hears) m_slack = std::max(m_slack, 2.0 * m_recorded.rowInterval);
   return {};
 }
 

@@ -45,6 +45,7 @@ class RerunRun {
 
   Result<void> prepare();
   Result<void> choose();
+  Result<std::vector<std::string>> hearMessages();
   Result<void> chooseRange();
   bool hasSeparate() const;
   Result<void> openBoard();

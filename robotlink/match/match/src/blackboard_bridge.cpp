@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <robotlink/match/blackboard_bridge.h>
 
+#include <algorithm>
+
 namespace pitchboard::link {
 namespace {
 
@@ -71,9 +73,10 @@ sim::RobotCommand BlackboardBridge::read(const Blackboard& board) const {
   return command;
 }
 
-void BlackboardBridge::publish(const sim::Percepts& percepts, Blackboard& board) const {
+void BlackboardBridge::publish(const sim::Percepts& percepts, Blackboard& board,
+                               std::size_t robots) const {
   publishBody(percepts, board);
-  publishSight(percepts, board);
+  publishSight(percepts, board, robots);
 }
 
 void BlackboardBridge::publishBody(const sim::Percepts& percepts, Blackboard& board) const {
@@ -82,13 +85,14 @@ void BlackboardBridge::publishBody(const sim::Percepts& percepts, Blackboard& bo
   publishLandmarks(m_variables, percepts.landmarks, board);
 }
 
-void BlackboardBridge::publishSight(const sim::Percepts& percepts, Blackboard& board) const {
+void BlackboardBridge::publishSight(const sim::Percepts& percepts, Blackboard& board,
+                                    std::size_t robots) const {
   const sim::BallPercept& ball = percepts.ball;
   if (ball.lost) writeIfPresent(board, m_variables.visionLost, *ball.lost);
   if (ball.distanceCm) writeFloat(board, m_variables.visionBallDist, *ball.distanceCm);
   if (ball.angleDeg) writeFloat(board, m_variables.visionBallAngle, *ball.angleDeg);
   if (ball.panDeg) writeFloat(board, m_variables.visionPanDeg, *ball.panDeg);
-  for (std::size_t robot = 0; robot < percepts.robots.size(); ++robot) {
+  for (std::size_t robot = 0; robot < std::min(robots, percepts.robots.size()); ++robot) {
     const auto& seen = percepts.robots[robot];
     if (!seen) continue;
     writeFloat(board, m_variables.robotDist[robot], seen->distanceCm);

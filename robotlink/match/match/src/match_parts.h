@@ -9,6 +9,7 @@
 
 #include <robotlink/match/blackboard_bridge.h>
 #include <robotlink/match/match_drawings.h>
+#include <robotlink/match/match_end.h>
 #include <robotlink/match/robots_memory.h>
 #include <robotlink/match/simulated_match.h>
 
@@ -56,9 +57,8 @@ struct SimulatedMatch::Parts {
   RobotSlots slots{base};
   ProcessPace pace{base, slots, events};
   LockStep lockStep{base, slots, pace};
-  std::uint64_t expectedTick = 0;          // another one means that a moment was restored
-  std::optional<std::uint32_t> goalCause;  // of the goal that was scored; sim::Event::cause
-  bool outSeen = false;
+  std::uint64_t expectedTick = 0;  // another one means that a moment was restored
+  MatchEnd end;
 };
 
 }  // namespace pitchboard::link

@@ -159,8 +159,7 @@ void SimulatedMatch::Parts::followSides() {
 void SimulatedMatch::Parts::followJump() {
   base.writes.jumpTo(base.tick());
   lockStep.jump();
-  goalCause.reset();
-  outSeen = false;
+  end.forget();
   events.forgetSight();
 }
 
@@ -206,11 +205,7 @@ void SimulatedMatch::Parts::advance(bool again) {
   const bool letsGo = following.settle(base.simulation);
   if (!again) events.stepped(base.simulation);
   events.sensed(base.simulation.state(), base.percepts, again);
-  for (const sim::Event& event : base.simulation.events()) {
-    if (event.kind == sim::EventKind::Undone && goalCause == event.cause) goalCause.reset();
-    if (event.kind == sim::EventKind::Goal) goalCause = event.cause;
-    outSeen = outSeen || event.kind == sim::EventKind::BallOut;
-  }
+  end.look(base.simulation.events());
   for (std::size_t i = 0; i < slots.all().size(); ++i) {
     RobotSlot& slot = *slots.all()[i];
     (slot.extended ? extendedBridge : bridge).publish(base.percepts[i], slot.board);
@@ -225,14 +220,7 @@ void SimulatedMatch::Parts::advance(bool again) {
 }
 
 std::string_view SimulatedMatch::finishedBy() const {
-  const sim::WorldState& state = simulation().state();
-  const StopConditions& stop = scenario().stop;
-  if (stop.goal && m_parts->goalCause) return "goal";
-  if (stop.ballOut && m_parts->outSeen) return "ball_out";
-  if (stop.duration && state.tick >= firstTickAtOrAfter(*stop.duration, m_parts->base.tickRate())) {
-    return "duration";
-  }
-  return state.game && state.game->over ? "full_time" : "";
+  return m_parts->end.reason(scenario().stop, simulation().state());
 }
 
 bool SimulatedMatch::nobodyPlays() const {

@@ -32,6 +32,8 @@ Blackboard Blackboard::onHeap() {
 Blackboard::Blackboard(std::unique_ptr<BlackboardMemory> memory)
     : m_memory(std::move(memory)), m_words(m_memory->words()) {}
 
+Blackboard::Blackboard(std::span<std::uint32_t, words> memory) : m_words(memory.data()) {}
+
 Blackboard::Blackboard(Blackboard&& other) noexcept
     : m_memory(std::move(other.m_memory)), m_words(std::exchange(other.m_words, nullptr)) {}
 

@@ -63,6 +63,26 @@ Result<std::vector<CycleWords>> cycleWordsFromText(std::string_view text, std::s
   return all;
 }
 
+Result<void> checkFree(std::span<const CycleWords> words, const VariableCatalog& catalog,
+                       std::string_view option) {
+  const auto check = [&](const std::string& name, IntVar word) -> Result<void> {
+    for (const Variable& known : catalog.variables()) {
+      const int offset = known.type == VariableType::Int ? 0 : Blackboard::floatOffset;
+      if (known.index + offset != word.index || known.name == name) continue;
+      return failure(ErrorCode::InvalidArgument,
+                     "the word " + std::to_string(word.index) + " of " + std::string(option) +
+                         " is " + known.name +
+                         "; choose one that the map leaves free, such as 460");
+    }
+    return {};
+  };
+  for (const CycleWords& one : words) {
+    TRY(check(cycleVariable(one.process, cycleSuffix), one.cycle));
+    if (one.clock) TRY(check(cycleVariable(one.process, clockSuffix), *one.clock));
+  }
+  return {};
+}
+
 std::string cycleVariable(std::string_view process, std::string_view suffix) {
   std::string name = std::string(process) + std::string(suffix);
   for (char& letter : name) {

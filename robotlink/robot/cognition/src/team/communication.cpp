@@ -2,6 +2,10 @@
 #include "process_makers.h"
 
 #include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include <base/try.h>
 #include <robotlink/blackboard/robot_variables.h>
@@ -20,20 +24,20 @@ constexpr int distanceMessage = 2;  // the kind of team message, and the request
 
 constexpr double listenPeriod = 0.05;  // s: how soon a referee's word is on the blackboard
 
-/// Hears the GameController for one robot, on a UDP port that it shares with others of this
-/// computer: each receives every broadcast. While the port is in use it is tried again every few
-/// seconds.
+/// Hears the GameController for one robot.
 class RefereeListener {
  public:
-  RefereeListener(int team, int player, std::unique_ptr<telemetry::UdpReceiver> receiver)
-      : m_team(team), m_player(player), m_receiver(std::move(receiver)) {}
+  using Datagrams = std::function<bool(telemetry::DatagramBatch&)>;
+
+  RefereeListener(int team, int player, Datagrams datagrams)
+      : m_team(team), m_player(player), m_datagrams(std::move(datagrams)) {}
 
   /// What the newest packet since the last call means to this robot, as a value of COM_REFEREE;
   /// nothing when there was none for it. Never blocks. If the referee goes offline, the last orders
   /// stay.
   std::optional<int> newOrder() {
     std::optional<int> order;
-    if (!m_receiver->take(m_batch)) return order;
+    if (!m_datagrams(m_batch)) return order;
     for (std::size_t i = 0; i < m_batch.size(); ++i) {
       const telemetry::DatagramView datagram = m_batch[i];
       const auto packet = telemetry::decodeReferee(datagram.payload);
@@ -52,14 +56,26 @@ class RefereeListener {
 
  private:
   int m_team, m_player;
-  std::unique_ptr<telemetry::UdpReceiver> m_receiver;
+  Datagrams m_datagrams;
   RefereeOrders m_orders;
   telemetry::RefereeTracker m_tracker;  // two versions at once, a second controller, late packets
   telemetry::DatagramBatch m_batch;
 };
 
-/// Listens to options.refereePort for options.refereeTeam and options.shirt. Fails when the numbers
-/// are out of range or the system gives no means to receive.
+/// Returns the datagrams of a UDP port that is shared with others of this computer: each receives
+/// every broadcast. While the port is in use it is tried again every few seconds.
+Result<RefereeListener::Datagrams> datagramsOf(int port) {
+  telemetry::ReceiverOptions receiving;
+  receiving.ports = {static_cast<std::uint16_t>(port)};
+  receiving.receiveBufferBytes = 1 << 18;
+  receiving.maxDatagrams = 256;
+  receiving.maxBytes = 1U << 18;
+  const std::shared_ptr receiver = TRY(telemetry::UdpReceiver::start(receiving));
+  return [receiver](telemetry::DatagramBatch& batch) { return receiver->take(batch); };
+}
+
+/// Listens for options.refereeTeam and options.shirt. Fails when the numbers are out of range or
+/// the system gives no means to receive.
 Result<std::unique_ptr<RefereeListener>> listenToReferee(const ProcessOptions& options) {
   const int player = options.shirt.value_or(options.robot.value);
   const auto refuse = [](const std::string& text) {
@@ -75,14 +91,9 @@ Result<std::unique_ptr<RefereeListener>> listenToReferee(const ProcessOptions& o
   if (!telemetry::isPort(options.refereePort)) {
     return refuse("the port " + std::to_string(options.refereePort) + " does not lie in 1..65535");
   }
-  telemetry::ReceiverOptions receiving;
-  receiving.ports = {static_cast<std::uint16_t>(options.refereePort)};
-  receiving.receiveBufferBytes = 1 << 18;
-  receiving.maxDatagrams = 256;
-  receiving.maxBytes = 1U << 18;
-  auto receiver = telemetry::UdpReceiver::start(receiving);
-  if (!receiver) return tl::unexpected<Error>(receiver.error());
-  return std::make_unique<RefereeListener>(*options.refereeTeam, player, std::move(*receiver));
+  auto datagrams =
+      options.refereeDatagrams ? options.refereeDatagrams : TRY(datagramsOf(options.refereePort));
+  return std::make_unique<RefereeListener>(*options.refereeTeam, player, std::move(datagrams));
 }
 
 // Obeys the referee in every cycle. Once a second (or as often as asked), as published: says which
@@ -95,7 +106,7 @@ Result<std::unique_ptr<RefereeListener>> listenToReferee(const ProcessOptions& o
 // whether or not the ball is in view, and the request is cleared.
 class Communication final : public CognitiveProcess {
  public:
-  Communication(const ProcessOptions& options, telemetry::UdpSender sender,
+  Communication(const ProcessOptions& options, std::optional<telemetry::UdpSender> sender,
                 std::unique_ptr<RefereeListener> referee)
       : m_options(options), m_sender(std::move(sender)), m_referee(std::move(referee)) {
     const VariableCatalog& catalog = VariableCatalog::published();
@@ -136,8 +147,7 @@ class Communication final : public CognitiveProcess {
     const std::string message = std::to_string(distanceMessage) + " " +
                                 std::to_string(m_options.robot.value) + " " +
                                 telemetry::pythonFloat(distance);
-    for (int n = 1; n <= teamPorts; ++n)
-      m_sender.send(static_cast<std::uint16_t>(m_options.teamPortBase + n), message);
+    for (int n = 1; n <= teamPorts; ++n) send(m_options.teamPortBase + n, message);
     if (asked) board.replace(*m_request, distanceMessage, 0);
   }
 
@@ -164,12 +174,15 @@ class Communication final : public CognitiveProcess {
     m.actionA = board.read(v.decisionActionA);
     m.imuEulerZ = board.read(v.imuEulerZ);
     m.voltage = board.read(v.voltage);
-    m_sender.send(static_cast<std::uint16_t>(m_options.telemetryPortBase + m_options.robot.value),
-                  telemetry::encode(m));
+    send(m_options.telemetryPortBase + m_options.robot.value, telemetry::encode(m));
+  }
+
+  void send(int port, const std::string& message) {
+    if (m_sender) m_sender->send(static_cast<std::uint16_t>(port), message);
   }
 
   ProcessOptions m_options;
-  telemetry::UdpSender m_sender;
+  std::optional<telemetry::UdpSender> m_sender;
   std::unique_ptr<RefereeListener> m_referee;  // when there is a team to listen for
   double m_nextTelemetry = 0.0;
   RobotVariables m_variables;
@@ -197,7 +210,8 @@ Result<std::unique_ptr<CognitiveProcess>> makeCommunication(const ProcessOptions
     if (!ports) return tl::unexpected<Error>(ports.error());
   }
   const auto address = TRY(telemetry::parseAddress(options.udpAddress));
-  auto sender = TRY(telemetry::UdpSender::simulatedTo(address));
+  std::optional<telemetry::UdpSender> sender;
+  if (options.sends) sender = TRY(telemetry::UdpSender::simulatedTo(address));
   if (!(options.telemetryPeriod >= listenPeriod && options.telemetryPeriod <= 60.0)) {
     return failure(ErrorCode::InvalidArgument, "the telemetry period must be 0.05 to 60 seconds");
   }

@@ -9,6 +9,10 @@ int numberOf(const Game& game, int index) {
   return index < 0 ? Game::noTeam : game.teams[static_cast<std::size_t>(index)].number;
 }
 
+IntVar wordIn(const VariableCatalog& map, std::string_view name) {
+  return map.intVar(name).value_or(IntVar{-1});
+}
+
 }  // namespace
 
 /// Restarts: who has the ball plays. The others walk to their places until a set play is taken, and
@@ -46,12 +50,12 @@ std::optional<int> RefereeOrders::take(const Game& game, int team, int player) {
 }
 
 RefereeVariables::RefereeVariables(const VariableCatalog& map)
-    : m_code(map.intVar("COM_REFEREE").value_or(IntVar{-1})),
-      m_setPlay(map.intVar("COM_SET_PLAY").value_or(IntVar{-1})),
-      m_setPlayIsOurs(map.intVar("COM_SET_PLAY_OURS").value_or(IntVar{-1})),
-      m_goalsOwn(map.intVar("COM_GOALS_OWN").value_or(IntVar{-1})),
-      m_goalsTheirs(map.intVar("COM_GOALS_THEIRS").value_or(IntVar{-1})),
-      m_secondsLeft(map.intVar("COM_SECONDS_LEFT").value_or(IntVar{-1})) {}
+    : m_code(wordIn(map, names[0])),
+      m_setPlay(wordIn(map, names[1])),
+      m_setPlayIsOurs(wordIn(map, names[2])),
+      m_goalsOwn(wordIn(map, names[3])),
+      m_goalsTheirs(wordIn(map, names[4])),
+      m_secondsLeft(wordIn(map, names[5])) {}
 
 void RefereeVariables::write(Blackboard& board, int code, const Game& game, int team,
                              bool extended) const {

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <base/random_batch.h>
 #include <simcore/world/ball_sweep.h>
 #include <simcore/world/event.h>
 #include <simcore/world/robot_io.h>
@@ -44,6 +45,11 @@ class PhysicsModel {
   /// Second half of a tick, after the rules: fills what robots sense.
   virtual void sense(WorldState& world, std::span<const RobotCommand> commands,
                      std::span<Percepts> percepts) = 0;
+
+  /// May draw the random numbers of these ticks together, which takes less time: ticks of worlds
+  /// with the settings and robots of this one, which the caller plays next, in this order. Changes
+  /// no result.
+  virtual void drawAhead(WorldState& /*world*/, std::span<const RandomBatch::Tick> /*ticks*/) {}
 
   /// Called after `world.robots` grew by one; the new robot stands still at `pose`.
   virtual void robotAdded(WorldState& world, const Pose& pose) const = 0;

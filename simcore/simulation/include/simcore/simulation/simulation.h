@@ -48,6 +48,12 @@ class Simulation {
   const WorldState& state() const { return m_state; }
   /// Restores a saved state. Steps from there repeat what followed. Fails as create() does.
   Result<void> restore(const WorldState& state);
+  /// Swaps the world's course with another one of the same settings and robots, without a referee:
+  /// continues another world, whose events begin with the next step.
+  void exchange(WorldCourse& course);
+  /// Prepares the next steps, ticks of worlds that exchange() will bring in this order: drawing
+  /// their random numbers together takes less time.
+  void drawAhead(std::span<const RandomBatch::Tick> ticks) { m_model->drawAhead(m_state, ticks); }
   std::uint64_t hash() const { return stateHash(m_state); }
 
   /// Fills `out` with what people see of the world, reusing its memory.

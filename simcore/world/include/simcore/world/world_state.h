@@ -103,6 +103,19 @@ struct WorldState {
   bool operator==(const WorldState&) const = default;
 };
 
+/// What ticks change in a world without a referee, and the seed. Many worlds that have all the rest
+/// in common are kept as their courses, next to each other in memory, and played in turn by one
+/// Simulation (Simulation::exchange()).
+struct WorldCourse {
+  std::uint64_t seed = 1;
+  std::uint64_t tick = 0;
+  Score score;
+  bool clockRunning = true;
+  std::uint64_t clockTicks = 0;
+  std::vector<RobotStatistics> statistics;
+  std::variant<RigidBodyState, PublishedState> physics;
+};
+
 /// Returns the radius of robot `index` in m.
 inline double robotRadius(const WorldState& world, std::size_t index) {
   const double own = world.models[index].radius;

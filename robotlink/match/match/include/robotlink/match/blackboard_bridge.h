@@ -19,10 +19,13 @@ class BlackboardBridge {
 
   /// Writes in the published order: control and IMU, landmark vision, ball and robot vision. It
   /// clears a finished action only if that is still there, so that a newer one is never lost.
-  void publish(const sim::Percepts& percepts, Blackboard& board) const;
+  /// `robots`: how many there are on the field.
+  void publish(const sim::Percepts& percepts, Blackboard& board,
+               std::size_t robots = sim::Percepts::maxSeenRobots) const;
   // publish() = publishBody() + publishSight(); conformance runs look at the blackboard in between.
   void publishBody(const sim::Percepts& percepts, Blackboard& board) const;
-  void publishSight(const sim::Percepts& percepts, Blackboard& board) const;
+  void publishSight(const sim::Percepts& percepts, Blackboard& board,
+                    std::size_t robots = sim::Percepts::maxSeenRobots) const;
 
  private:
   RobotVariables m_variables;

@@ -42,6 +42,10 @@ class Blackboard {
 
   /// Creates a blackboard of zeros in heap memory.
   static Blackboard onHeap();
+  /// Uses words that somebody else owns, which must outlive it.
+  static Blackboard over(std::span<std::uint32_t, words> memory) { return Blackboard(memory); }
+  /// Another one of the same words, which this one must outlive.
+  Blackboard view() const { return over(std::span<std::uint32_t, words>(m_words, words)); }
 
   Blackboard(Blackboard&&) noexcept;
   Blackboard& operator=(Blackboard&&) noexcept;
@@ -79,6 +83,7 @@ class Blackboard {
  private:
   friend class SystemVSegments;
   explicit Blackboard(std::unique_ptr<BlackboardMemory> memory);
+  explicit Blackboard(std::span<std::uint32_t, words> memory);
 
   std::atomic_ref<std::uint32_t> word(int index) const {
     return std::atomic_ref<std::uint32_t>(m_words[index]);

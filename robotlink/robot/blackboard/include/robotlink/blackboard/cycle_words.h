@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,9 @@ struct CycleWords {
 /// Reads texts such as "decision=460:461,localization=459". Fails with InvalidArgument; `option` is
 /// what the sentence calls it.
 Result<std::vector<CycleWords>> cycleWordsFromText(std::string_view text, std::string_view option);
+/// Fails with InvalidArgument if the map has another variable in one of the words.
+Result<void> checkFree(std::span<const CycleWords> words, const VariableCatalog& catalog,
+                       std::string_view option);
 /// Returns "DECISION_CYCLE" for decision and cycleSuffix.
 std::string cycleVariable(std::string_view process, std::string_view suffix);
 

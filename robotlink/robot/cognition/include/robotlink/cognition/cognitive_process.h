@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,10 @@
 #include <robotlink/cognition/team_channel.h>
 #include <simcore/world/field.h>
 #include <simcore/world/robot_model.h>
+
+namespace pitchboard::telemetry {
+class DatagramBatch;
+}
 
 namespace pitchboard::link {
 
@@ -82,6 +87,10 @@ struct ProcessOptions {
   bool announceSetPlay = false;
   std::optional<int> shirt;  ///< number in the GameController; empty: the robot's id
   int refereePort = 3838;
+  /// communication: replaces the batch by the referee's datagrams since the last call; returns
+  /// false if there are none. Empty: they come from refereePort.
+  std::function<bool(telemetry::DatagramBatch&)> refereeDatagrams;
+  bool sends = true;  ///< communication: false: it only does what others see on the blackboard
   int channelPortBase = 10000;  ///< team: robots of a team use the port this + `team`
 
   sim::FieldSpec field;                ///< localization, decision: where lines and posts are

@@ -4,7 +4,9 @@
 // Derives from the referee's game what a robot has to do, and writes it to the robot's
 // blackboard. One thread at a time.
 
+#include <array>
 #include <optional>
+#include <string_view>
 
 #include <base/game.h>
 #include <robotlink/blackboard/robot_variables.h>
@@ -19,6 +21,9 @@ inline constexpr int refereeStop = 1, refereePlay = 2, refereeReady = 11, refere
 /// map contains them.
 class RefereeVariables {
  public:
+  static constexpr std::array<std::string_view, 6> names{"COM_REFEREE",       "COM_SET_PLAY",
+                                                         "COM_SET_PLAY_OURS", "COM_GOALS_OWN",
+                                                         "COM_GOALS_THEIRS",  "COM_SECONDS_LEFT"};
   explicit RefereeVariables(const VariableCatalog& map);
   /// `code`: value of COM_REFEREE; `team`: number of the robot's team, which plays. Writes set
   /// play, score and time only if `extended`, because other teams may use those words differently.
